@@ -1,0 +1,87 @@
+"""The door: bounds of numbers and tuples, checked once, where a value enters the core."""
+
+import math
+from collections.abc import Iterable
+from numbers import Real
+
+from simc_core.errors import InvalidParameter
+
+LONGEST_TIME = 1e9  # largest time constant or dead time, and inverse of the smallest
+LARGEST_GAIN = 1e12  # largest gain, and inverse of the smallest
+MOST_FACTORS = 40  # poles of a plant; beyond that no number below would be worth reading
+
+
+def real(name: str, value, low: float = -math.inf, high: float = math.inf) -> float:
+    """`value` as a finite float in [low, high].
+
+    Raises InvalidParameter: the message names the field, the bound and the value.
+    """
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InvalidParameter(f"{name} must be a number, got {_shown(value)}")
+    number = float(value)
+    if not math.isfinite(number):
+        raise InvalidParameter(f"{name} must be finite, got {number}")
+    if number < low:
+        raise InvalidParameter(f"{name} must be >= {low:g}, got {number:g}")
+    if number > high:
+        raise InvalidParameter(f"{name} must be <= {high:g}, got {number:g}")
+    return number
+
+
+def magnitude(name: str, value, largest: float) -> float:
+    """`value` as a nonzero float, 1/largest <= |value| <= largest."""
+    number = real(name, value)
+    if number == 0:
+        raise InvalidParameter(f"{name} must not be zero, got 0")
+    if not 1 / largest <= abs(number) <= largest:
+        raise InvalidParameter(f"|{name}| must be between {1 / largest:g} and {largest:g}, got {number:g}")
+    return number
+
+
+def gain(name: str, value) -> float:
+    """A nonzero gain."""
+    return magnitude(name, value, LARGEST_GAIN)
+
+
+def time_constant(name: str, value) -> float:
+    """A nonzero time constant of either sign."""
+    return magnitude(name, value, LONGEST_TIME)
+
+
+def positive_time(name: str, value) -> float:
+    """A time constant > 0."""
+    number = time_constant(name, value)
+    if number < 0:
+        raise InvalidParameter(f"{name} must be > 0, got {number:g}")
+    return number
+
+
+def optional_time(name: str, value) -> float:
+    """A time >= 0: zero, or not below the smallest time the core works with."""
+    number = real(name, value, low=0.0, high=LONGEST_TIME)
+    if 0 < number < 1 / LONGEST_TIME:
+        raise InvalidParameter(f"{name} must be 0 or >= {1 / LONGEST_TIME:g}, got {number:g}")
+    return number
+
+
+def whole(name: str, value, low: int, high: int) -> int:
+    """`value` as an int in [low, high]."""
+    number = real(name, value, low, high)
+    if number != int(number):
+        raise InvalidParameter(f"{name} must be a whole number, got {number:g}")
+    return int(number)
+
+
+def items(name: str, values, most: int = MOST_FACTORS) -> tuple:
+    """`values` as a tuple of at most `most` items."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise InvalidParameter(f"{name} must be a list of numbers, got {_shown(values)}")
+    given = tuple(values)
+    if len(given) > most:
+        raise InvalidParameter(f"{name} may have at most {most} entries, got {len(given)}")
+    return given
+
+
+def _shown(value) -> str:
+    text = repr(value)
+    return text if len(text) <= 40 else text[:37] + "..."

@@ -1,0 +1,229 @@
+"""PID controllers as types, one per form; the form can never be mistaken.
+
+    series     C(s) = Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1)/(tau_F s + 1)
+    ideal      C(s) = Kc (1 + 1/(tau_I s) + tau_D s)/(tau_F s + 1)
+    parallel   C(s) = (Kp + Ki/s + Kd s)/(tau_F s + 1)
+    I only     C(s) = K_I/s
+
+Two degrees of freedom: b and c weigh the set point in the parallel representation,
+
+    u = [Kp (b r - y) + Ki (r - y)/s + Kd s (c r - y)]/(tau_F s + 1).
+
+Conversions [SG12 sect. 5.2]: series -> ideal with f = 1 + tau_D/tau_I: Kc' = f Kc, tau_I' = f tau_I,
+tau_D' = tau_D/f. Back only if tau_I' >= 4 tau_D': f = (1 + sqrt(1 - 4 tau_D'/tau_I'))/2.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core import checks
+from simc_core.errors import FormError, InvalidParameter
+from simc_core.factors import Factored, factors
+
+DOUBLE_ROOT = 1e-12  # tau_I' = 4 tau_D' up to rounding counts as equality
+
+
+def _weights(controller) -> None:
+    put = object.__setattr__
+    put(controller, "b", checks.real("b", controller.b, 0.0, 2.0))
+    put(controller, "c", checks.real("c", controller.c, 0.0, 2.0))
+
+
+def _standard_fields(controller) -> None:
+    """Bounds shared by the series and the ideal form."""
+    put = object.__setattr__
+    put(controller, "Kc", checks.gain("Kc", controller.Kc))
+    if controller.tau_I != math.inf:
+        put(controller, "tau_I", checks.positive_time("tau_I", controller.tau_I))
+    put(controller, "tau_D", checks.optional_time("tau_D", controller.tau_D))
+    put(controller, "tau_F", checks.optional_time("tau_F", controller.tau_F))
+    _weights(controller)
+
+
+class _Responses:
+    """What all forms share, by way of the parallel one."""
+
+    __slots__ = ()
+
+    def response(self, s) -> np.ndarray:
+        """C(s) of the feedback path, from -y to u; any shape of s."""
+        return self.factored(s)
+
+    def setpoint_response(self, s) -> np.ndarray:
+        """Transfer function from r to u, (b Kp + Ki/s + c Kd s)/(tau_F s + 1); any shape of s."""
+        return self.setpoint_factored(s)
+
+    @property
+    def setpoint_factored(self) -> Factored:
+        """Set-point path as the engine sees it."""
+        form = self.to_parallel()
+        return _parallel(form.b * form.Kp, form.Ki, form.c * form.Kd, form.tau_F)
+
+
+@dataclass(frozen=True, slots=True)
+class SeriesPid(_Responses):
+    """Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1)/(tau_F s + 1); tau_I = math.inf: no integral action."""
+
+    Kc: float
+    tau_I: float
+    tau_D: float = 0.0
+    tau_F: float = 0.0
+    b: float = 1.0
+    c: float = 0.0
+
+    __post_init__ = _standard_fields
+
+    @property
+    def factored(self) -> Factored:
+        """Feedback path as the engine sees it."""
+        return _series(self.Kc, self.tau_I, self.tau_D, self.tau_F)
+
+    def to_series(self) -> "SeriesPid":
+        """Itself."""
+        return self
+
+    def to_ideal(self) -> "IdealPid":
+        """The same controller in ideal form [SG12 eq. 5.6]."""
+        f = 1 + self.tau_D / self.tau_I
+        return IdealPid(f * self.Kc, f * self.tau_I, self.tau_D / f, self.tau_F, self.b, self.c)
+
+    def to_parallel(self) -> "ParallelPid":
+        """The same controller in parallel form."""
+        return self.to_ideal().to_parallel()
+
+
+@dataclass(frozen=True, slots=True)
+class IdealPid(_Responses):
+    """Kc (1 + 1/(tau_I s) + tau_D s)/(tau_F s + 1); tau_I = math.inf: no integral action."""
+
+    Kc: float
+    tau_I: float
+    tau_D: float = 0.0
+    tau_F: float = 0.0
+    b: float = 1.0
+    c: float = 0.0
+
+    __post_init__ = _standard_fields
+
+    @property
+    def factored(self) -> Factored:
+        """Feedback path as the engine sees it, in real factors where there are any."""
+        if self.tau_I >= 4 * self.tau_D:
+            series = self.to_series()
+            return _series(series.Kc, series.tau_I, series.tau_D, series.tau_F)
+        return Factored(
+            self.Kc / self.tau_I,
+            factors((self.tau_I * self.tau_D, self.tau_I, 1.0)),
+            factors((0.0, 1.0, 0.0), (0.0, self.tau_F, 1.0)),
+        )
+
+    def to_series(self) -> SeriesPid:
+        """The same controller in series form [SG12 eq. 5.7]; FormError if tau_I < 4 tau_D."""
+        root = 1 - 4 * self.tau_D / self.tau_I
+        if root < -DOUBLE_ROOT:
+            raise FormError(
+                f"a series form needs tau_I >= 4 tau_D = {4 * self.tau_D:g}, got tau_I = {self.tau_I:g}: "
+                "the zeros of the controller are complex"
+            )
+        f = (1 + math.sqrt(max(root, 0.0))) / 2
+        return SeriesPid(f * self.Kc, f * self.tau_I, self.tau_D / f, self.tau_F, self.b, self.c)
+
+    def to_ideal(self) -> "IdealPid":
+        """Itself."""
+        return self
+
+    def to_parallel(self) -> "ParallelPid":
+        """The same controller in parallel form: Kp = Kc, Ki = Kc/tau_I, Kd = Kc tau_D."""
+        return ParallelPid(self.Kc, self.Kc / self.tau_I, self.Kc * self.tau_D, self.tau_F, self.b, self.c)
+
+
+@dataclass(frozen=True, slots=True)
+class ParallelPid(_Responses):
+    """(Kp + Ki/s + Kd s)/(tau_F s + 1); not all three may be zero."""
+
+    Kp: float
+    Ki: float
+    Kd: float = 0.0
+    tau_F: float = 0.0
+    b: float = 1.0
+    c: float = 0.0
+
+    def __post_init__(self):
+        put = object.__setattr__
+        for name in ("Kp", "Ki", "Kd"):
+            put(self, name, checks.real(name, getattr(self, name), -1e15, 1e15))
+        put(self, "tau_F", checks.optional_time("tau_F", self.tau_F))
+        _weights(self)
+        if self.Kp == self.Ki == self.Kd == 0:
+            raise InvalidParameter("one of Kp, Ki, Kd must not be zero, got 0, 0, 0")
+
+    @property
+    def factored(self) -> Factored:
+        """Feedback path as the engine sees it."""
+        return _parallel(self.Kp, self.Ki, self.Kd, self.tau_F)
+
+    def to_series(self) -> SeriesPid:
+        """The same controller in series form; FormError where there is none."""
+        return self.to_ideal().to_series()
+
+    def to_ideal(self) -> IdealPid:
+        """The same controller in ideal form: Kc = Kp, tau_I = Kp/Ki, tau_D = Kd/Kp.
+
+        Raises FormError for Kp = 0 (no ideal form) and where tau_I or tau_D would be negative.
+        """
+        if self.Kp == 0:
+            raise FormError(f"an ideal form needs Kp != 0, got Kp = 0 with Ki = {self.Ki:g}, Kd = {self.Kd:g}")
+        if self.Ki * self.Kp < 0 or self.Kd * self.Kp < 0:
+            raise FormError(f"an ideal form needs Kp, Ki and Kd of one sign, got {self.Kp:g}, {self.Ki:g}, {self.Kd:g}")
+        tau_I = self.Kp / self.Ki if self.Ki else math.inf
+        return IdealPid(self.Kp, tau_I, self.Kd / self.Kp, self.tau_F, self.b, self.c)
+
+    def to_parallel(self) -> "ParallelPid":
+        """Itself."""
+        return self
+
+
+@dataclass(frozen=True, slots=True)
+class IController(_Responses):
+    """K_I/s, the SIMC controller of pure dead time [SK03 Table 1]."""
+
+    K_I: float
+
+    def __post_init__(self):
+        object.__setattr__(self, "K_I", checks.gain("K_I", self.K_I))
+
+    @property
+    def factored(self) -> Factored:
+        """Feedback path as the engine sees it."""
+        return _parallel(0.0, self.K_I, 0.0, 0.0)
+
+    def to_series(self) -> SeriesPid:
+        """Raises FormError: a pure integrator is the limit tau_I -> 0 of a series form, not one itself."""
+        raise FormError(f"pure integral action has no series form with tau_I > 0, got K_I = {self.K_I:g}")
+
+    def to_ideal(self) -> IdealPid:
+        """Raises FormError, as to_series does."""
+        raise FormError(f"pure integral action has no ideal form with tau_I > 0, got K_I = {self.K_I:g}")
+
+    def to_parallel(self) -> ParallelPid:
+        """The same controller in parallel form: Ki = K_I, Kp = Kd = 0."""
+        return ParallelPid(0.0, self.K_I)
+
+
+Controller = SeriesPid | IdealPid | ParallelPid | IController
+
+
+def _series(Kc: float, tau_I: float, tau_D: float, tau_F: float) -> Factored:
+    derivative, filter_ = (0.0, tau_D, 1.0), (0.0, tau_F, 1.0)
+    if tau_I == math.inf:
+        return Factored(Kc, factors(derivative), factors(filter_))
+    return Factored(Kc / tau_I, factors((0.0, tau_I, 1.0), derivative), factors((0.0, 1.0, 0.0), filter_))
+
+
+def _parallel(Kp: float, Ki: float, Kd: float, tau_F: float) -> Factored:
+    filter_ = (0.0, tau_F, 1.0)
+    if Ki == 0:
+        return Factored(1.0, factors((0.0, Kd, Kp)), factors(filter_))
+    return Factored(Ki, factors((Kd / Ki, Kp / Ki, 1.0)), factors((0.0, 1.0, 0.0), filter_))

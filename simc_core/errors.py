@@ -1,0 +1,30 @@
+"""Errors of the core. Every message names the field, its bound and the value received."""
+
+
+class SimcError(ValueError):
+    """Base of all errors that a user's input can cause."""
+
+
+class InvalidParameter(SimcError):
+    """A number outside its bounds, or fields that do not fit together."""
+
+
+class ParseError(SimcError):
+    """Text that is not a transfer function; `position` is the index of the fault in `text`."""
+
+    def __init__(self, message: str, text: str = "", position: int = 0):
+        super().__init__(message)
+        self.text = text
+        self.position = position
+
+
+class NotReducible(SimcError):
+    """The half rule does not cover this plant; the message says what can be done instead."""
+
+
+class FormError(SimcError):
+    """A controller that has no equivalent in the form asked for."""
+
+
+class NotStable(SimcError):
+    """A quantity was asked for that only a stable loop has."""

@@ -1,0 +1,65 @@
+"""The loop, and the one block diagram that fixes all signs.
+
+                                      d
+                                      |
+    r ---->[ C_r ]--->(+)---- u --->(+)--->[ G = g e^{-theta s} ]----+---> y
+                       ^ -                                           |
+                       |                                             |
+                       +-----------------[ C ]<----------------------+
+
+    u = C_r r - C y        y = G (u + d)        L = G C
+    S = 1/(1+L)   T = L/(1+L)   KS = C/(1+L)   GS = G/(1+L)
+
+C is `controller.response`, C_r `controller.setpoint_response`. With b = c = 1 C_r = C.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.controllers import Controller
+from simc_core.errors import InvalidParameter
+from simc_core.factors import Factored
+from simc_core.plant import Plant
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A plant under feedback, see the module docstring."""
+
+    plant: Plant
+    controller: Controller
+
+    @property
+    def L(self) -> Factored:
+        """Loop transfer function G C, exact dead time."""
+        return self.plant.factored * self.controller.factored
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrequencyResponse:
+    """Arrays of shape (n,): omega in rad per time unit, the others complex."""
+
+    omega: np.ndarray
+    L: np.ndarray
+    S: np.ndarray
+    T: np.ndarray
+    KS: np.ndarray
+    GS: np.ndarray
+
+
+def frequency_response(loop: Loop, omega) -> FrequencyResponse:
+    """L, S, T, KS, GS of the loop at omega > 0, shape (n,); exact dead time.
+
+    Raises InvalidParameter where omega is not a list of positive finite numbers.
+    """
+    omega = np.atleast_1d(np.asarray(omega, dtype=float))
+    if omega.ndim != 1 or not np.all(np.isfinite(omega)) or not np.all(omega > 0):
+        raise InvalidParameter(f"omega must be positive and finite, one-dimensional, got shape {omega.shape}")
+    s = 1j * omega
+    G, C = loop.plant.factored(s), loop.controller.factored(s)
+    L = G * C
+    with np.errstate(divide="ignore", invalid="ignore"):
+        S = 1 / (1 + L)
+        T = np.where(np.isfinite(L), L * S, 1.0)
+    return FrequencyResponse(omega, L, S, T, C * S, G * S)

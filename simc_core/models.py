@@ -1,0 +1,140 @@
+"""The reduced models that SIMC has a rule for. Each is a small plant with a name.
+
+Gains: k is the steady-state gain, k_prime the slope of an integrating response (lim s G(s)),
+k_double_prime the curvature of a double integrating one.
+"""
+
+from dataclasses import dataclass, fields
+
+from simc_core import checks
+from simc_core.errors import InvalidParameter
+from simc_core.plant import Plant
+
+
+class _Model:
+    """Bounds by field name, checked at construction."""
+
+    __slots__ = ()
+
+    def __post_init__(self):
+        for field in fields(self):
+            value = _CHECKS[field.name](field.name, getattr(self, field.name))
+            object.__setattr__(self, field.name, value)
+
+    @property
+    def plant(self) -> Plant:
+        """The model as a plant."""
+        raise NotImplementedError
+
+
+_CHECKS = {
+    "k": checks.gain,
+    "k_prime": checks.gain,
+    "k_double_prime": checks.gain,
+    "theta": checks.optional_time,
+    "tau1": checks.optional_time,
+    "tau2": checks.optional_time,
+    "a": checks.positive_time,
+    "tau0": checks.positive_time,
+    "zeta": lambda name, value: checks.real(name, value, 0.0, 10.0),
+}
+
+
+def _lags(*times: float) -> tuple[float, ...]:
+    return tuple(tau for tau in times if tau)
+
+
+@dataclass(frozen=True, slots=True)
+class FirstOrderDelay(_Model):
+    """k e^{-theta s}/(tau1 s + 1); tau1 = 0 is pure dead time."""
+
+    k: float
+    theta: float
+    tau1: float
+
+    @property
+    def plant(self) -> Plant:
+        """The model as a plant."""
+        return Plant(self.k, self.theta, _lags(self.tau1))
+
+
+@dataclass(frozen=True, slots=True)
+class SecondOrderDelay(_Model):
+    """k e^{-theta s}/((tau1 s + 1)(tau2 s + 1)), tau1 >= tau2."""
+
+    k: float
+    theta: float
+    tau1: float
+    tau2: float
+
+    def __post_init__(self):
+        _Model.__post_init__(self)
+        if self.tau2 > self.tau1:
+            raise InvalidParameter(f"tau2 must be <= tau1 = {self.tau1:g}, got {self.tau2:g}")
+
+    @property
+    def plant(self) -> Plant:
+        """The model as a plant."""
+        return Plant(self.k, self.theta, _lags(self.tau1, self.tau2))
+
+
+@dataclass(frozen=True, slots=True)
+class IntegratingDelay(_Model):
+    """k' e^{-theta s}/(s (tau2 s + 1))."""
+
+    k_prime: float
+    theta: float
+    tau2: float = 0.0
+
+    @property
+    def plant(self) -> Plant:
+        """The model as a plant."""
+        return Plant(self.k_prime, self.theta, _lags(self.tau2), integrators=1)
+
+
+@dataclass(frozen=True, slots=True)
+class DoubleIntegratingDelay(_Model):
+    """k'' e^{-theta s}/s^2."""
+
+    k_double_prime: float
+    theta: float
+
+    @property
+    def plant(self) -> Plant:
+        """The model as a plant."""
+        return Plant(self.k_double_prime, self.theta, integrators=2)
+
+
+@dataclass(frozen=True, slots=True)
+class UnstableDelay(_Model):
+    """k' e^{-theta s}/((s - a)(tau2 s + 1)), a > 0 [SK98 eq. 23]."""
+
+    k_prime: float
+    theta: float
+    a: float
+    tau2: float = 0.0
+
+    @property
+    def plant(self) -> Plant:
+        """The model as a plant: k'/(s - a) = (-k'/a)/(-s/a + 1)."""
+        return Plant(-self.k_prime / self.a, self.theta, (-1 / self.a, *_lags(self.tau2)))
+
+
+@dataclass(frozen=True, slots=True)
+class OscillatingDelay(_Model):
+    """k e^{-theta s}/(tau0^2 s^2 + 2 zeta tau0 s + 1), zeta >= 0."""
+
+    k: float
+    theta: float
+    tau0: float
+    zeta: float
+
+    @property
+    def plant(self) -> Plant:
+        """The model as a plant."""
+        return Plant(self.k, self.theta, lag_pairs=((self.tau0, self.zeta),))
+
+
+Model = (
+    FirstOrderDelay | SecondOrderDelay | IntegratingDelay | DoubleIntegratingDelay | UnstableDelay | OscillatingDelay
+)

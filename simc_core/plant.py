@@ -1,0 +1,155 @@
+"""The plant: gain, dead time, lags, numerator time constants, integrators, complex pairs.
+
+    G(s) = k e^{-theta s} prod(T_j s + 1) prod(T^2 s^2 + 2 zeta T s + 1)
+           / ( s^n prod(tau_i s + 1) prod(tau^2 s^2 + 2 zeta tau s + 1) )
+
+T < 0 is a zero in the right half plane (inverse response), tau < 0 an unstable pole:
+1/(20 s - 1) is k = -1, tau = -20. Time has one unit, the user's own.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core import checks
+from simc_core.errors import InvalidParameter
+from simc_core.factors import Factored, factors
+from simc_core.polynomials import factorise
+
+
+@dataclass(frozen=True, slots=True)
+class Plant:
+    """Transfer function with exact dead time, see the module docstring.
+
+    k: gain of the part without integrators, in output units per input unit (per time^n).
+    theta: dead time >= 0.   lags, leads: time constants, != 0.   integrators: 0..4.
+    lag_pairs, lead_pairs: (tau, zeta) with tau > 0.
+    Raises InvalidParameter, also where the numerator has a higher degree than the denominator.
+    """
+
+    k: float
+    theta: float = 0.0
+    lags: tuple[float, ...] = ()
+    leads: tuple[float, ...] = ()
+    integrators: int = 0
+    lag_pairs: tuple[tuple[float, float], ...] = ()
+    lead_pairs: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self):
+        put = object.__setattr__  # the only way to normalise a frozen dataclass
+        put(self, "k", checks.gain("k", self.k))
+        put(self, "theta", checks.optional_time("theta", self.theta))
+        put(self, "lags", _times("lags", self.lags))
+        put(self, "leads", _times("leads", self.leads))
+        put(self, "integrators", checks.whole("integrators", self.integrators, 0, 4))
+        put(self, "lag_pairs", _pairs("lag_pairs", self.lag_pairs))
+        put(self, "lead_pairs", _pairs("lead_pairs", self.lead_pairs))
+        zeros, poles = len(self.leads) + 2 * len(self.lead_pairs), self.order
+        if poles > checks.MOST_FACTORS:
+            raise InvalidParameter(f"a plant may have at most {checks.MOST_FACTORS} poles, got {poles}")
+        if zeros > poles:
+            raise InvalidParameter(f"degree of the numerator must be <= {poles}, that of the denominator, got {zeros}")
+
+    @classmethod
+    def from_polynomials(cls, num, den, theta: float = 0.0) -> "Plant":
+        """num(s)/den(s) e^{-theta s}; coefficients in descending powers of s.
+
+        Roots are found by eigenvalues; clusters that are one multiple root within rounding are made one.
+        Raises InvalidParameter: empty or zero polynomials, a zero at s = 0 that no integrator cancels.
+        """
+        return cls.from_products([num], [den], theta)
+
+    @classmethod
+    def from_products(cls, nums, dens, theta: float = 0.0) -> "Plant":
+        """prod(num_i)/prod(den_j) e^{-theta s}, each a polynomial; factors given apart stay exact."""
+        top, bottom = factorise("numerator", nums), factorise("denominator", dens)
+        integrators = bottom.at_origin - top.at_origin
+        if integrators < 0:
+            raise InvalidParameter(f"numerator must not vanish at s = 0 (no gain to control with), got s^{-integrators}")
+        return cls(
+            top.constant / bottom.constant, theta, bottom.times, top.times, integrators, bottom.pairs, top.pairs
+        )
+
+    def response(self, s) -> np.ndarray:
+        """G(s), complex, any shape of s; exact dead time."""
+        return self.factored(s)
+
+    @property
+    def factored(self) -> Factored:
+        """The plant as the engine sees it."""
+        return Factored(
+            self.k,
+            factors(*[(0.0, T, 1.0) for T in self.leads], *map(_quadratic, self.lead_pairs)),
+            factors(
+                *[(0.0, 1.0, 0.0)] * self.integrators,
+                *[(0.0, tau, 1.0) for tau in self.lags],
+                *map(_quadratic, self.lag_pairs),
+            ),
+            self.theta,
+        )
+
+    @property
+    def order(self) -> int:
+        """Number of poles."""
+        return self.integrators + len(self.lags) + 2 * len(self.lag_pairs)
+
+    @property
+    def poles(self) -> np.ndarray:
+        """Poles, complex, with multiplicity."""
+        return self.factored.poles
+
+    @property
+    def zeros(self) -> np.ndarray:
+        """Zeros, complex, with multiplicity."""
+        return self.factored.zeros
+
+    @property
+    def unstable_poles(self) -> int:
+        """Number of poles in the open right half plane (integrators not counted)."""
+        return sum(tau < 0 for tau in self.lags) + 2 * sum(zeta < 0 for _, zeta in self.lag_pairs)
+
+    @property
+    def kind(self) -> str:
+        """What kind of process it is, in words."""
+        words = []
+        if self.unstable_poles:
+            words.append("unstable")
+        if self.integrators:
+            words.append(("integrating", "double integrating", "triple integrating", "fourfold integrating")[self.integrators - 1])
+        if any(0 <= zeta < 0.7 for _, zeta in self.lag_pairs):
+            words.append("oscillating")
+        if not words:
+            words.append(self._self_regulating_kind())
+        if any(T < 0 for T in self.leads) or any(zeta < 0 for _, zeta in self.lead_pairs):
+            words.append("inverse response")
+        return ", ".join(words)
+
+    def _self_regulating_kind(self) -> str:
+        slowest = max([*self.lags, *(tau for tau, _ in self.lag_pairs)], default=0.0)
+        if slowest == 0:
+            return "pure dead time" if self.theta else "pure gain"
+        if self.theta == 0:
+            return "stable, no dead time"
+        if self.theta > slowest:
+            return "stable, delay dominant"
+        return "stable, lag dominant" if slowest >= 4 * self.theta else "stable, balanced"
+
+
+def _times(name: str, values) -> tuple[float, ...]:
+    return tuple(checks.time_constant(f"{name}[{i}]", value) for i, value in enumerate(checks.items(name, values)))
+
+
+def _pairs(name: str, values) -> tuple[tuple[float, float], ...]:
+    pairs = []
+    for i, value in enumerate(checks.items(name, values)):
+        pair = checks.items(f"{name}[{i}]", value)
+        if len(pair) != 2:
+            raise InvalidParameter(f"{name}[{i}] must be (tau, zeta), got {len(pair)} numbers")
+        tau = checks.positive_time(f"{name}[{i}] tau", pair[0])
+        pairs.append((tau, checks.real(f"{name}[{i}] zeta", pair[1], -100.0, 100.0)))
+    return tuple(pairs)
+
+
+def _quadratic(pair: tuple[float, float]) -> tuple[float, float, float]:
+    tau, zeta = pair
+    return tau * tau, 2 * zeta * tau, 1.0

@@ -1,0 +1,110 @@
+"""Polynomials as people type them, taken apart into gain, integrators, time constants and pairs."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from simc_core import checks
+from simc_core.errors import InvalidParameter
+from simc_core.factors import quadratic_roots
+
+CLUSTER_RADII = (0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # relative; tried from coarse to fine
+SAME_POLYNOMIAL = 1e-11  # two polynomials are one if every coefficient agrees to this
+
+
+@dataclass(frozen=True, slots=True)
+class Factors:
+    """constant s^at_origin prod(times_i s + 1) prod(tau^2 s^2 + 2 zeta tau s + 1)."""
+
+    constant: float
+    at_origin: int
+    times: tuple[float, ...]
+    pairs: tuple[tuple[float, float], ...]
+
+
+def factorise(name: str, polynomials: Iterable) -> Factors:
+    """The product of `polynomials` (descending powers of s) as Factors.
+
+    Factors of degree 1 and 2 are exact; above that the roots come from the companion matrix, and
+    roots that are one multiple root within rounding are taken as such.
+    Raises InvalidParameter: empty, zero or non-finite coefficients, degree above checks.MOST_FACTORS.
+    """
+    constant, at_origin = 1.0, 0
+    times: list[float] = []
+    pairs: list[tuple[float, float]] = []
+    for polynomial in polynomials:
+        coefficients = _trimmed(name, polynomial)
+        while coefficients[-1] == 0:
+            coefficients, at_origin = coefficients[:-1], at_origin + 1
+        constant *= coefficients[-1]
+        for root in _roots(coefficients):
+            if root.imag == 0:
+                times.append(-1 / root.real)
+            elif root.imag > 0:
+                pairs.append((1 / abs(root), -root.real / abs(root)))
+    return Factors(checks.real(f"gain of the {name}", constant), at_origin, tuple(times), tuple(pairs))
+
+
+def _trimmed(name: str, polynomial) -> np.ndarray:
+    given = checks.items(name, polynomial, checks.MOST_FACTORS + 1)
+    values = [checks.real(f"{name} coefficient", value) for value in given]
+    coefficients = np.trim_zeros(np.array(values), "f")
+    if coefficients.size == 0:
+        raise InvalidParameter(f"{name} must not be zero or empty, got {values}")
+    return coefficients
+
+
+def _roots(coefficients: np.ndarray) -> list[complex]:
+    degree = len(coefficients) - 1
+    if degree == 0:
+        return []
+    if degree == 1:
+        return [complex(-coefficients[1] / coefficients[0])]
+    if degree == 2:
+        return _quadratic(*coefficients)
+    with np.errstate(all="ignore"):
+        scale = (abs(coefficients[-1]) / abs(coefficients[0])) ** (1 / degree)
+        scaled = coefficients * scale ** np.arange(degree, -1.0, -1.0)
+        scaled = scaled / np.max(np.abs(scaled))
+    if not np.all(np.isfinite(scaled)) or scaled[0] == 0:
+        sizes = f"{coefficients[0]:g} to {coefficients[-1]:g}"
+        raise InvalidParameter(f"coefficients of one polynomial must be of comparable size, got {sizes}")
+    return [complex(root) * scale for root in _merged(np.roots(scaled), scaled)]
+
+
+def _quadratic(a: float, b: float, c: float) -> list[complex]:
+    roots = quadratic_roots(a, b, c)
+    if abs(roots[0] - roots[1]) < 1e-7 * abs(roots[0]):  # (10 s + 1)^2 typed as 100 s^2 + 20 s + 1
+        double = -np.sign(b) * sqrt(c / a)
+        return [complex(double)] * 2
+    return list(roots)
+
+
+def _merged(roots: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
+    """Roots with clusters replaced by their mean, where that is the same polynomial."""
+    for radius in CLUSTER_RADII:
+        candidate = _clustered(roots, radius)
+        product = np.real(np.poly(candidate)) * coefficients[0]
+        if np.allclose(product, coefficients, rtol=SAME_POLYNOMIAL, atol=0):
+            return candidate
+    return roots
+
+
+def _clustered(roots: np.ndarray, radius: float) -> np.ndarray:
+    upper = roots[roots.imag >= 0]
+    merged = []
+    left = list(upper)
+    while left:
+        seed = left[0]
+        near = [root for root in left if abs(root - seed) <= radius * abs(seed)]
+        left = [root for root in left if abs(root - seed) > radius * abs(seed)]
+        if any(abs(root.imag) <= radius * abs(root) for root in near):
+            # a cluster on the real axis: its mirror images belong to it
+            members = [*near, *(root.conjugate() for root in near if root.imag > 0)]
+            merged += [complex(np.mean(members).real)] * len(members)
+        else:
+            centre = complex(np.mean(near))
+            merged += [centre, centre.conjugate()] * len(near)
+    return np.array(merged)
