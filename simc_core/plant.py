@@ -65,10 +65,10 @@ class Plant:
         top, bottom = factorise("numerator", nums), factorise("denominator", dens)
         integrators = bottom.at_origin - top.at_origin
         if integrators < 0:
-            raise InvalidParameter(f"numerator must not vanish at s = 0 (no gain to control with), got s^{-integrators}")
-        return cls(
-            top.constant / bottom.constant, theta, bottom.times, top.times, integrators, bottom.pairs, top.pairs
-        )
+            raise InvalidParameter(
+                f"numerator must not vanish at s = 0 (no gain to control with), got s^{-integrators}"
+            )
+        return cls(top.constant / bottom.constant, theta, bottom.times, top.times, integrators, bottom.pairs, top.pairs)
 
     def response(self, s) -> np.ndarray:
         """G(s), complex, any shape of s; exact dead time."""
@@ -115,7 +115,11 @@ class Plant:
         if self.unstable_poles:
             words.append("unstable")
         if self.integrators:
-            words.append(("integrating", "double integrating", "triple integrating", "fourfold integrating")[self.integrators - 1])
+            words.append(
+                ("integrating", "double integrating", "triple integrating", "fourfold integrating")[
+                    self.integrators - 1
+                ]
+            )
         if any(0 <= zeta < 0.7 for _, zeta in self.lag_pairs):
             words.append("oscillating")
         if not words:
