@@ -1,0 +1,5 @@
+"""Placeholder."""
+
+from pages.common import header
+
+header.show("accuracy")

@@ -1,0 +1,99 @@
+"""What the user has decided: the records behind every page, their defaults and their bounds.
+
+Pure Python, no streamlit. links.py writes a Design as an address, project.py as a file, state.py keeps one a session.
+"""
+
+from dataclasses import dataclass, field
+
+from simc_core import Plant, checks
+from simc_core.errors import InvalidParameter
+
+FORMS = ("series", "ideal", "parallel")
+KINDS = ("PI", "PID")
+METHODS = ("simc", "synthesis")
+MOST_PINS = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Tuning:
+    """How a controller is made from the plant.
+
+    order: of the reduced model; 1 gives a PI, 2 a PID controller.   h: sampling period, 0 if continuous.
+    tau_c: closed-loop time constant, None for tight, which is the model's own theta.
+    b: set-point weight.   filter: tau_F/tau_D, 0 for no filter.
+    """
+
+    order: int = 1
+    h: float = 0.0
+    tau_c: float | None = None
+    b: float = 1.0
+    filter: float = 0.0
+
+    def __post_init__(self):
+        put = object.__setattr__
+        put(self, "order", checks.whole("order", self.order, 1, 2))
+        put(self, "h", checks.optional_time("h", self.h))
+        if self.tau_c is not None:
+            put(self, "tau_c", checks.positive_time("tau_c", self.tau_c))
+        put(self, "b", checks.real("b", self.b, 0.0, 2.0))
+        put(self, "filter", checks.real("filter", self.filter, 0.0, 10.0))
+
+    @property
+    def kind(self) -> str:
+        """PI or PID, which follows from the order of the model."""
+        return KINDS[self.order - 1]
+
+
+@dataclass(frozen=True, slots=True)
+class Cascade:
+    """Both blocks and how their controllers are designed; None for what the method chooses itself.
+
+    primary: Ga, the block of the outer loop.   secondary: Gb, the block of the inner loop.
+    tau_c_inner, tau_c_outer: also serve as lambda of the direct synthesis.
+    """
+
+    primary: Plant = field(default_factory=lambda: Plant(2.0, 2.0, (5.0,)))
+    secondary: Plant = field(default_factory=lambda: Plant(1.0, 1.0, (2.0, 3.0)))
+    method: str = "simc"
+    inner: str = "PID"
+    outer: str = "PID"
+    tau_c_inner: float | None = None
+    tau_c_outer: float | None = None
+    Ms_inner: float | None = None
+    Ms_outer: float | None = None
+    b: float = 1.0
+
+    def __post_init__(self):
+        put = object.__setattr__
+        one_of("method", self.method, METHODS)
+        one_of("inner", self.inner, KINDS)
+        one_of("outer", self.outer, KINDS)
+        for name in ("tau_c_inner", "tau_c_outer"):
+            if getattr(self, name) is not None:
+                put(self, name, checks.positive_time(name, getattr(self, name)))
+        for name in ("Ms_inner", "Ms_outer"):
+            if getattr(self, name) is not None:
+                put(self, name, checks.real(name, getattr(self, name), 1.05, 10.0))
+        put(self, "b", checks.real("b", self.b, 0.0, 2.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Design:
+    """Everything a link or a project file holds. pins: tunings set aside to compare with the present one."""
+
+    plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
+    tuning: Tuning = Tuning()
+    form: str = "series"
+    pins: tuple[Tuning, ...] = ()
+    cascade: Cascade = field(default_factory=Cascade)
+
+    def __post_init__(self):
+        one_of("form", self.form, FORMS)
+        object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
+
+
+def one_of(name: str, value, choices: tuple[str, ...]) -> str:
+    """`value`, which must be one of `choices`. Raises InvalidParameter."""
+    if value not in choices:
+        raise InvalidParameter(f"{name} must be one of {', '.join(choices)}, got {str(value)[:40]}")
+    return value

@@ -1,0 +1,81 @@
+"""The line on top of every page, and the sidebar: what is being worked on, where we are, how to take it along."""
+
+import streamlit as st
+
+from pages.common import project, state
+from pages.common.design import Design
+from simc_core.notation import latex
+
+TITLES = {
+    "home": "Home",
+    "plant": "Plant",
+    "half_rule": "Half rule",
+    "tuning": "Tuning",
+    "cascade": "Cascade",
+    "accuracy": "Accuracy",
+}
+CHAIN = ("plant", "half_rule", "tuning", "cascade")
+
+
+def show(place: str) -> Design:
+    """Page settings, the line on top, notices and the sidebar. `place` is a key of TITLES. Returns the design."""
+    st.set_page_config(page_title=f"{TITLES[place]} · SIMC", page_icon="🎚️", layout="wide")
+    design = state.begin()
+    with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
+        plant = design.plant
+        st.markdown(f"$G(s) = {latex(plant)}$", width="content")
+        st.caption(f"{plant.kind}, $\\theta$ = {plant.theta:g}", width="content")
+        chain(place)
+    _notices()
+    with st.sidebar:
+        _take_along()
+    return design
+
+
+def chain(place: str) -> None:
+    """Plant > Half rule > Tuning > Cascade, to click, with the present place marked."""
+    with st.container(key="chain", horizontal=True, vertical_alignment="center", gap="small", width="content"):
+        for i, name in enumerate(CHAIN):
+            if i:
+                st.markdown(":gray[›]", width="content")
+            page = state.page(name)
+            if name == place:
+                st.markdown(f"**:blue[{TITLES[name]}]**", width="content")
+            elif page is None:
+                st.markdown(TITLES[name], width="content")
+            else:
+                st.page_link(page, label=TITLES[name], query_params=state.parameters())
+
+
+def _notices() -> None:
+    ignored = state.ignored()
+    if not ignored:
+        return
+    lines = "\n".join(f"- `{notice.name}`: {notice}" for notice in ignored)
+    st.warning(f"Part of the link could not be used; the rest was.\n\n{lines}")
+    st.button("Dismiss", on_click=state.dismiss_ignored)
+
+
+def _take_along() -> None:
+    st.caption("Link to this page and design")
+    st.code(state.address(), language=None)
+    st.download_button(
+        "Save project", project.dump(state.design_now()), "simc-project.json", "application/json", width="stretch"
+    )
+    upload = st.file_uploader("Open project", type="json", key="project_file")
+    if upload is not None:
+        _open(upload)
+
+
+def _open(upload) -> None:
+    """Take the design of a file, once; a wrong file changes nothing and says why."""
+    if state.memory("opened", lambda: None) != upload.file_id:
+        state.remember("opened", upload.file_id)
+        design, why = project.load(upload.getvalue())
+        state.remember("refused", why)
+        if design is not None:
+            state.replace_design(design)
+            st.rerun()
+    why = state.memory("refused", lambda: "")
+    if why:
+        st.error(f"{upload.name} was not opened, nothing changed: {why}")

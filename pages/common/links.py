@@ -1,0 +1,128 @@
+"""A Design as query parameters and back. Pure: no streamlit, so that it can be tested alone.
+
+    plant, order, h, tau_c, b, filter, form      the design itself; h to form only where they are not the default
+    pins                                         order~tau_c~b~filter~h, one after the other, separated by !
+    Ga, Gb, method, inner, ...                   the cascade, only where it is not the default
+
+Numbers are written with all their digits, so that a link opens the very same design.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from urllib.parse import quote, urlencode
+
+from pages.common.design import Design, Tuning
+from simc_core import Plant, parse_plant
+from simc_core.errors import SimcError
+from simc_core.notation import plain
+
+LONGEST_VALUE = 2000  # characters of one parameter; a plant of 40 poles needs fewer
+TUNING_FIELDS = ("order", "h", "tau_c", "b", "filter")
+PIN_FIELDS = ("order", "tau_c", "b", "filter", "h")
+CASCADE_FIELDS = {
+    "Ga": "primary",
+    "Gb": "secondary",
+    "method": "method",
+    "inner": "inner",
+    "outer": "outer",
+    "tau_c_inner": "tau_c_inner",
+    "tau_c_outer": "tau_c_outer",
+    "Ms_inner": "Ms_inner",
+    "Ms_outer": "Ms_outer",
+    "b_outer": "b",
+}
+TEXTS = ("form", "method", "inner", "outer")
+PLANTS = ("plant", "Ga", "Gb")
+ALWAYS = ("plant", "order")
+
+
+@dataclass(frozen=True, slots=True)
+class Ignored:
+    """A parameter of an address that could not be used, and why."""
+
+    name: str
+    value: str
+    why: str
+
+    def __str__(self) -> str:
+        value = self.value if len(self.value) <= 60 else self.value[:57] + "..."
+        return f"{self.name} = {value} was ignored: {self.why}"
+
+
+def encode(design: Design) -> dict[str, str]:
+    """The query parameters of a design."""
+    now, usual = _flat(design), _flat(Design())
+    return {name: text for name, text in now.items() if text and (name in ALWAYS or text != usual[name])}
+
+
+def query(design: Design) -> str:
+    """The query part of an address, escaped."""
+    return urlencode(encode(design), quote_via=quote, safe="()+*^/,~!")
+
+
+def decode(parameters: Mapping[str, str], start: Design) -> tuple[Design, list[Ignored]]:
+    """`start` with everything changed that the parameters say, and what could not be used.
+
+    Parameters are taken one by one: a bad one leaves its field as it was and does not spoil the others.
+    """
+    design, ignored = start, []
+    for name, value in parameters.items():
+        try:
+            design = _changed(design, name, value)
+        except SimcError as error:
+            ignored.append(Ignored(name, value, str(error)))
+    return design, ignored
+
+
+def number_text(value: float | None) -> str:
+    """The shortest text that reads back as the same number; empty for None."""
+    if value is None:
+        return ""
+    return repr(value).removesuffix(".0")
+
+
+def _flat(design: Design) -> dict[str, str]:
+    flat = {"plant": plain(design.plant)}
+    flat |= {name: number_text(getattr(design.tuning, name)) for name in TUNING_FIELDS}
+    flat |= {"form": design.form, "pins": "!".join(map(_pin_text, design.pins))}
+    for name, field in CASCADE_FIELDS.items():
+        value = getattr(design.cascade, field)
+        flat[name] = plain(value) if isinstance(value, Plant) else value if name in TEXTS else number_text(value)
+    return flat
+
+
+def _changed(design: Design, name: str, text: str) -> Design:
+    if len(text) > LONGEST_VALUE:
+        raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
+    read: Callable = parse_plant if name in PLANTS else str if name in TEXTS else _number
+    if name == "plant":
+        return replace(design, plant=read(text))
+    if name in TUNING_FIELDS:
+        return replace(design, tuning=replace(design.tuning, **{name: read(text)}))
+    if name == "form":
+        return replace(design, form=read(text))
+    if name == "pins":
+        return replace(design, pins=tuple(_pin(pin) for pin in text.split("!")))
+    if name in CASCADE_FIELDS:
+        return replace(design, cascade=replace(design.cascade, **{CASCADE_FIELDS[name]: read(text)}))
+    raise SimcError("there is no parameter of this name")
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise SimcError("a number was expected") from None
+
+
+def _pin_text(pin: Tuning) -> str:
+    return "~".join(number_text(getattr(pin, name)) for name in PIN_FIELDS)
+
+
+def _pin(text: str) -> Tuning:
+    values = text.split("~")
+    if len(values) != len(PIN_FIELDS):
+        raise SimcError(f"a pinned tuning has {len(PIN_FIELDS)} numbers separated by ~, got {len(values)}")
+    return Tuning(
+        **{name: _number(value) for name, value in zip(PIN_FIELDS, values, strict=True) if value or name != "tau_c"}
+    )
