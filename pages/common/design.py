@@ -11,6 +11,7 @@ from simc_core.errors import InvalidParameter
 FORMS = ("series", "ideal", "parallel")
 KINDS = ("PI", "PID")
 METHODS = ("simc", "synthesis")
+RULES = ("2003", "1998")
 MOST_PINS = 4
 
 
@@ -20,7 +21,7 @@ class Tuning:
 
     order: of the reduced model; 1 gives a PI, 2 a PID controller.   h: sampling period, 0 if continuous.
     tau_c: closed-loop time constant, None for tight, which is the model's own theta.
-    b: set-point weight.   filter: tau_F/tau_D, 0 for no filter.
+    b: set-point weight.   filter: tau_F/tau_D, 0 for no filter.   rules: of the reduction, [SK03] or [SK98].
     """
 
     order: int = 1
@@ -28,6 +29,7 @@ class Tuning:
     tau_c: float | None = None
     b: float = 1.0
     filter: float = 0.0
+    rules: str = "2003"
 
     def __post_init__(self):
         put = object.__setattr__
@@ -37,6 +39,7 @@ class Tuning:
             put(self, "tau_c", checks.positive_time("tau_c", self.tau_c))
         put(self, "b", checks.real("b", self.b, 0.0, 2.0))
         put(self, "filter", checks.real("filter", self.filter, 0.0, 10.0))
+        one_of("rules", self.rules, RULES)
 
     @property
     def kind(self) -> str:

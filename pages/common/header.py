@@ -14,12 +14,29 @@ TITLES = {
     "cascade": "Cascade",
     "accuracy": "Accuracy",
 }
+# Less air round the page than Streamlit leaves: an instrument shows its dials. The line stays one line where it fits.
+STYLE = """<style>
+[data-testid="stMainBlockContainer"] {padding: 3rem 2rem 2rem}
+@media (max-width: 640px) {[data-testid="stMainBlockContainer"] {padding: 3rem 0.75rem 2rem}}
+.st-key-line {border-bottom: 1px solid var(--st-border-color); padding-bottom: 0.4rem}
+.st-key-line .katex {font-size: 1.15em}
+[data-testid="stMain"] .st-key-line [data-testid="stMarkdownContainer"] p {margin: 0}
+</style>"""
 CHAIN = ("plant", "half_rule", "tuning", "cascade")
+
+
+def go(place: str) -> None:
+    """Open another page with the present design; alone, without the router, show the present one again."""
+    page = state.page(place)
+    if page is None:
+        st.rerun()
+    st.switch_page(page, query_params=state.parameters())
 
 
 def show(place: str) -> Design:
     """Page settings, the line on top, notices and the sidebar. `place` is a key of TITLES. Returns the design."""
     st.set_page_config(page_title=f"{TITLES[place]} · SIMC", page_icon="🎚️", layout="wide")
+    st.html(STYLE)
     design = state.begin()
     with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
         plant = design.plant
@@ -32,9 +49,9 @@ def show(place: str) -> Design:
     return design
 
 
-def chain(place: str) -> None:
+def chain(place: str, key: str = "chain") -> None:
     """Plant > Half rule > Tuning > Cascade, to click, with the present place marked."""
-    with st.container(key="chain", horizontal=True, vertical_alignment="center", gap="small", width="content"):
+    with st.container(key=key, horizontal=True, vertical_alignment="center", gap="xsmall", width="content"):
         for i, name in enumerate(CHAIN):
             if i:
                 st.markdown(":gray[›]", width="content")
@@ -51,9 +68,10 @@ def _notices() -> None:
     ignored = state.ignored()
     if not ignored:
         return
-    lines = "\n".join(f"- `{notice.name}`: {notice}" for notice in ignored)
-    st.warning(f"Part of the link could not be used; the rest was.\n\n{lines}")
-    st.button("Dismiss", on_click=state.dismiss_ignored)
+    lines = "\n".join(f"- {notice}" for notice in ignored)
+    with st.container(horizontal=True, vertical_alignment="center"):
+        st.warning(f"Part of the link could not be used, the rest was.\n\n{lines}", width="stretch")
+        st.button("Dismiss", on_click=state.dismiss_ignored)
 
 
 def _take_along() -> None:

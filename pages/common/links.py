@@ -1,24 +1,23 @@
 """A Design as query parameters and back. Pure: no streamlit, so that it can be tested alone.
 
-    plant, order, h, tau_c, b, filter, form      the design itself; h to form only where they are not the default
-    pins                                         order~tau_c~b~filter~h, one after the other, separated by !
-    Ga, Gb, method, inner, ...                   the cascade, only where it is not the default
+    plant, order, h, tau_c, b, filter, rules, form   the design itself; from h on only where not the default
+    pins                                             order~h~tau_c~b~filter~rules, several separated by !
+    Ga, Gb, method, inner, ...                       the cascade, only where it is not the default
 
 Numbers are written with all their digits, so that a link opens the very same design.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from urllib.parse import quote, urlencode
 
 from pages.common.design import Design, Tuning
-from simc_core import Plant, parse_plant
+from simc_core import parse_plant
 from simc_core.errors import SimcError
 from simc_core.notation import plain
 
 LONGEST_VALUE = 2000  # characters of one parameter; a plant of 40 poles needs fewer
-TUNING_FIELDS = ("order", "h", "tau_c", "b", "filter")
-PIN_FIELDS = ("order", "tau_c", "b", "filter", "h")
+TUNING_FIELDS = ("order", "h", "tau_c", "b", "filter", "rules")
 CASCADE_FIELDS = {
     "Ga": "primary",
     "Gb": "secondary",
@@ -31,7 +30,7 @@ CASCADE_FIELDS = {
     "Ms_outer": "Ms_outer",
     "b_outer": "b",
 }
-TEXTS = ("form", "method", "inner", "outer")
+TEXTS = ("rules", "form", "method", "inner", "outer")
 PLANTS = ("plant", "Ga", "Gb")
 ALWAYS = ("plant", "order")
 
@@ -45,8 +44,7 @@ class Ignored:
     why: str
 
     def __str__(self) -> str:
-        value = self.value if len(self.value) <= 60 else self.value[:57] + "..."
-        return f"{self.name} = {value} was ignored: {self.why}"
+        return f"`{_short(self.name)} = {_short(self.value)}` was ignored: {self.why}"
 
 
 def encode(design: Design) -> dict[str, str]:
@@ -81,34 +79,45 @@ def number_text(value: float | None) -> str:
     return repr(value).removesuffix(".0")
 
 
+def _short(text: str) -> str:
+    text = "".join(c if c.isprintable() and c != "`" else "?" for c in text)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
 def _flat(design: Design) -> dict[str, str]:
     flat = {"plant": plain(design.plant)}
-    flat |= {name: number_text(getattr(design.tuning, name)) for name in TUNING_FIELDS}
+    flat |= {name: _text(name, getattr(design.tuning, name)) for name in TUNING_FIELDS}
     flat |= {"form": design.form, "pins": "!".join(map(_pin_text, design.pins))}
     for name, field in CASCADE_FIELDS.items():
-        value = getattr(design.cascade, field)
-        flat[name] = plain(value) if isinstance(value, Plant) else value if name in TEXTS else number_text(value)
+        flat[name] = _text(name, getattr(design.cascade, field))
     return flat
 
 
 def _changed(design: Design, name: str, text: str) -> Design:
     if len(text) > LONGEST_VALUE:
         raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
-    read: Callable = parse_plant if name in PLANTS else str if name in TEXTS else _number
-    if name == "plant":
-        return replace(design, plant=read(text))
-    if name in TUNING_FIELDS:
-        return replace(design, tuning=replace(design.tuning, **{name: read(text)}))
-    if name == "form":
-        return replace(design, form=read(text))
     if name == "pins":
         return replace(design, pins=tuple(_pin(pin) for pin in text.split("!")))
+    if name in ("plant", "form"):
+        return replace(design, **{name: _read(name, text)})
+    if name in TUNING_FIELDS:
+        return replace(design, tuning=replace(design.tuning, **{name: _read(name, text)}))
     if name in CASCADE_FIELDS:
-        return replace(design, cascade=replace(design.cascade, **{CASCADE_FIELDS[name]: read(text)}))
+        return replace(design, cascade=replace(design.cascade, **{CASCADE_FIELDS[name]: _read(name, text)}))
     raise SimcError("there is no parameter of this name")
 
 
-def _number(text: str) -> float:
+def _text(name: str, value) -> str:
+    if name in TEXTS:
+        return value
+    return plain(value) if name in PLANTS else number_text(value)
+
+
+def _read(name: str, text: str):
+    if name in TEXTS:
+        return text
+    if name in PLANTS:
+        return parse_plant(text)
     try:
         return float(text)
     except ValueError:
@@ -116,13 +125,12 @@ def _number(text: str) -> float:
 
 
 def _pin_text(pin: Tuning) -> str:
-    return "~".join(number_text(getattr(pin, name)) for name in PIN_FIELDS)
+    return "~".join(_text(name, getattr(pin, name)) for name in TUNING_FIELDS)
 
 
 def _pin(text: str) -> Tuning:
     values = text.split("~")
-    if len(values) != len(PIN_FIELDS):
-        raise SimcError(f"a pinned tuning has {len(PIN_FIELDS)} numbers separated by ~, got {len(values)}")
-    return Tuning(
-        **{name: _number(value) for name, value in zip(PIN_FIELDS, values, strict=True) if value or name != "tau_c"}
-    )
+    if len(values) != len(TUNING_FIELDS):
+        raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, got {len(values)}")
+    given = dict(zip(TUNING_FIELDS, values, strict=True))
+    return Tuning(**{name: _read(name, value) for name, value in given.items() if value})

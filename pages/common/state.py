@@ -26,7 +26,7 @@ OF_DESIGN = ("plant", "form", "pins")
 def begin() -> Design:
     """Read the address if it is new, then make it show the design. May be called more than once a run."""
     given = st.query_params.to_dict()
-    if given and given != _memory("address"):
+    if given and given != st.session_state.get("address"):
         design, ignored = links.decode(given, design_now())
         st.session_state["design"] = design
         st.session_state["ignored"] = ignored
@@ -45,7 +45,7 @@ def plant() -> Plant:
 
 
 def tuning() -> Tuning:
-    """order, h, tau_c, b, filter."""
+    """order, h, tau_c, b, filter, rules."""
     return design_now().tuning
 
 
@@ -55,7 +55,7 @@ def cascade() -> Cascade:
 
 
 def change(**values) -> None:
-    """Change fields by the names of links.py (plant, order, h, tau_c, b, filter, form, pins, Ga, Gb, method, ...).
+    """Change fields by their names in links.py: plant, order, h, tau_c, b, filter, rules, form, pins, Ga, Gb, method, ...
 
     Raises InvalidParameter and then changes nothing.
     """
@@ -93,7 +93,7 @@ def bound(name: str, show: Callable = lambda value: value, read: Callable = lamb
     leaves the field as it is. Values a widget can give must be within the field's bounds.
     """
     key = f"widget_{name}"
-    st.session_state[key] = show(value(name))
+    set_widget(key, show(value(name)))
     return {"key": key, "on_change": _take, "args": (key, name, read)}
 
 
@@ -122,8 +122,12 @@ def widget(key: str, default: Any = None) -> Any:
 
 
 def set_widget(key: str, thing: Any) -> None:
-    """Put a value into the widget of this key, before it is made."""
-    st.session_state[key] = thing
+    """Put a value into the widget of this key, before it is made.
+
+    Where the widget holds it already nothing is sent, so that typing that goes on is not overwritten.
+    """
+    if key not in st.session_state or st.session_state[key] != thing:
+        st.session_state[key] = thing
 
 
 def ignored() -> list[Ignored]:
@@ -155,10 +159,6 @@ def offer_pages(pages: Mapping[str, Any]) -> None:
 def page(name: str) -> Any | None:
     """The page of this name, None if the present page runs alone, without the router."""
     return st.session_state.get("pages", {}).get(name)
-
-
-def _memory(key: str) -> Any:
-    return st.session_state.get(key)
 
 
 def _show_in_address() -> None:

@@ -1,0 +1,111 @@
+"""Step response of a plant alone, exact dead time.
+
+G(s) = g(s) e^{-theta s}; y(t) = y0(t - theta), with y0 the unit step response of g. g is a chain of sections
+
+    (b2 s^2 + b1 s + b0)/(a s^2 + b s + c)      x1' = x2, x2' = (u - c x1 - b x2)/a, y = D u + ...,  D = b2/a
+
+so that x' = A x + B with constant input, and [x; 1] moves from one instant to the next by one matrix exponential.
+The grid is uniform; the dead time shifts it by a first step of another length, never by rounding to the grid.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import expm
+
+from simc_core import checks
+from simc_core.plant import Plant
+
+POINTS = 600
+SETTLED = 4.0  # spreads of the decay after which a stable response is at rest to 2 %
+GROWN = 3.0  # time constants of an unstable pole that are shown
+MOST_PERIODS = 15.0  # of an oscillation that hardly decays
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlantStep:
+    """t, y: arrays of shape (n,); y at a jump is its right-hand limit."""
+
+    t: np.ndarray
+    y: np.ndarray
+
+
+def plant_step(plant: Plant, t_end: float | None = None) -> PlantStep:
+    """Response of the plant to a unit step at t = 0; t_end = None takes the plant's own horizon.
+
+    An unstable response beyond the range of doubles is not finite.
+    Raises InvalidParameter where t_end is not a positive time.
+    """
+    t_end = step_horizon(plant) if t_end is None else checks.positive_time("t_end", t_end)
+    t, step = np.linspace(0.0, t_end, POINTS, retstep=True)
+    after = np.flatnonzero(t >= plant.theta)
+    y = np.zeros(POINTS)
+    if after.size == 0:
+        return PlantStep(t, y)
+    A, B, C, D = _chain(plant, step)
+    n = len(B)
+    motion = np.zeros((n + 1, n + 1))
+    motion[:n, :n], motion[:n, n] = A, B
+    with np.errstate(over="ignore", invalid="ignore"):
+        state = expm(motion * (t[after[0]] - plant.theta) / step)[:, n]
+        advance = expm(motion)
+        for i in after:
+            y[i] = plant.k * (C @ state[:n] + D)
+            state = advance @ state
+    return PlantStep(t, y)
+
+
+def step_horizon(plant: Plant) -> float:
+    """How long a step response is worth watching: to rest, or until an unstable one has grown."""
+    growing = [-tau for tau in plant.lags if tau < 0]
+    growing += [tau / -zeta for tau, zeta in plant.lag_pairs if zeta < 0]
+    if growing:
+        return plant.theta + GROWN * min(growing)
+    decay = [*plant.lags, *(_envelope(tau, zeta) for tau, zeta in plant.lag_pairs)]
+    total = sum(plant.lags) + sum(2 * zeta * tau for tau, zeta in plant.lag_pairs)
+    if decay:  # n equal lags spread like sqrt(n) round the sum of all
+        return plant.theta + total + SETTLED * float(np.linalg.norm(decay))
+    return 3 * plant.theta or SETTLED
+
+
+def _envelope(tau: float, zeta: float) -> float:
+    """Time constant of the envelope of a pair, of its slower part if it does not oscillate."""
+    if zeta >= 1:
+        return tau * (zeta + np.sqrt(zeta * zeta - 1))
+    return tau / max(zeta, SETTLED / (2 * np.pi * MOST_PERIODS))
+
+
+def _chain(plant: Plant, unit: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """A (n, n), B (n,), C (n,), D of G/(k e^{-theta s}), time measured in `unit`."""
+    parts = plant.factored
+    num, den = _sections(parts.num, unit), _sections(parts.den, unit)
+    num += [(0.0, 0.0, 1.0)] * (len(den) - len(num))
+    n = sum(2 if a else 1 for a, _, _ in den)
+    A, B, C, D, used = np.zeros((n, n)), np.zeros(n), np.zeros(n), 1.0, 0
+    for (b2, b1, b0), (a, b, c) in zip(num, den, strict=True):
+        size = 2 if a else 1
+        rows, last = slice(used, used + size), used + size - 1
+        lead = a or b  # coefficient of the highest power
+        through = b2 / a if a else b1 / b
+        A[last], B[last] = C / lead, D / lead  # u of this section is y of the one before
+        A[last, rows] = (-c / a, -b / a) if a else (-c / b,)
+        if a:
+            A[used, last] = 1.0
+        C, D = through * C, through * D
+        C[rows] = (b0 - through * c, b1 - through * b) if a else (b0 - through * c,)
+        used += size
+    return A, B, C, D
+
+
+def _sections(rows: np.ndarray, unit: float) -> list[tuple[float, float, float]]:
+    """Factors as quadratics, first-order ones multiplied in pairs, at most one of first order left, at the end.
+
+    With both lists in this order no numerator section has a higher degree than its denominator.
+    """
+    scaled = [(a / unit**2, b / unit, c) for a, b, c in rows]
+    quadratics = [row for row in scaled if row[0]]
+    linear = [row for row in scaled if not row[0]]
+    while len(linear) > 1:
+        (_, b1, c1), (_, b2, c2) = linear.pop(0), linear.pop(0)
+        quadratics.append((b1 * b2, b1 * c2 + b2 * c1, c1 * c2))
+    return quadratics + linear

@@ -1,0 +1,91 @@
+"""Servers, waiting, pictures: what the browser tests share."""
+
+import re
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+from urllib.request import urlopen
+
+from playwright.sync_api import Page
+
+ROOT = Path(__file__).parents[2]
+PICTURES = Path(__file__).parent / "screenshots"
+WIDTHS = {1280: 900, 390: 844}
+THEMES = ("light", "dark")
+IDLE = "[data-testid=stApp][data-test-script-state=notRunning]"
+# On a deep link Streamlit first looks for itself below the page's own path, and finds itself one level up.
+PROBE = re.compile(r"/\w+/_stcore/(health|host-config)$")
+PATIENCE = 30  # seconds for a server to start on a busy machine
+
+
+class Server:
+    """A fresh `streamlit run app.py` on a free port of 127.0.0.1."""
+
+    def __init__(self):
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        self.url = f"http://127.0.0.1:{port}"
+        command = [sys.executable, "-m", "streamlit", "run", "app.py"]
+        options = [f"--server.port={port}", "--server.address=127.0.0.1", "--server.fileWatcherType=none"]
+        self.process = subprocess.Popen(
+            command + options, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
+        self._wait()
+
+    def _wait(self) -> None:
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            try:
+                with urlopen(self.url + "/_stcore/health", timeout=1) as answer:
+                    if answer.status == 200:
+                        return
+            except OSError:
+                time.sleep(0.1)
+        self.stop()
+        raise RuntimeError(f"the server did not answer within {PATIENCE} s")
+
+    def stop(self) -> None:
+        self.process.terminate()
+        self.process.wait(timeout=10)
+
+
+def idle(page: Page, settle: float = 0.25) -> None:
+    """Wait until the script has run and stays at rest for `settle` seconds."""
+    quiet = 0.0
+    while quiet < settle:
+        page.wait_for_selector(IDLE)
+        page.wait_for_timeout(50)
+        quiet = quiet + 0.05 if page.query_selector(IDLE) else 0.0
+
+
+def picture(page: Page, name: str) -> Path:
+    """Store a screenshot as screenshots/NAME-WIDTH-THEME.png and give its path."""
+    dark = page.evaluate("matchMedia('(prefers-color-scheme: dark)').matches")
+    PICTURES.mkdir(exist_ok=True)
+    path = PICTURES / f"{name}-{page.viewport_size['width']}-{THEMES[dark]}.png"
+    page.wait_for_timeout(400)  # figures fade in
+    page.screenshot(path=path)
+    return path
+
+
+def fits(page: Page) -> bool:
+    """Nothing sticks out to the right: the page does not scroll sideways."""
+    return page.evaluate("document.querySelector('[data-testid=stMain]').scrollWidth <= innerWidth")
+
+
+def watch(page: Page, faults: list[str]) -> None:
+    def console(message) -> None:
+        where = message.location.get("url", "")
+        if message.type == "error" and not PROBE.search(where):
+            faults.append(f"console: {message.text} {where}")
+
+    def request(asked) -> None:
+        if not asked.url.startswith(("http://127.0.0.1:", "ws://127.0.0.1:", "data:", "blob:", "about:")):
+            faults.append(f"request to another host: {asked.url}")
+
+    page.on("console", console)
+    page.on("pageerror", lambda error: faults.append(f"exception: {error}"))
+    page.on("request", request)

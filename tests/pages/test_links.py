@@ -1,0 +1,123 @@
+"""Address and project file: what goes in comes out, and nonsense says why it was not taken."""
+
+import json
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pages.common import links, project
+from pages.common.design import Cascade, Design, Tuning
+from simc_core import Plant
+
+times = st.floats(1e-3, 1e3)
+plants = st.builds(
+    Plant,
+    k=st.floats(-1e3, 1e3).filter(lambda k: abs(k) > 1e-3),
+    theta=st.just(0.0) | times,
+    lags=st.lists(times, min_size=1, max_size=4).map(tuple),
+    leads=st.lists(times.map(lambda T: -T), max_size=1).map(tuple),
+    integrators=st.integers(0, 2),
+)
+tunings = st.builds(
+    Tuning,
+    order=st.sampled_from([1, 2]),
+    h=st.just(0.0) | times,
+    tau_c=st.none() | times,
+    b=st.floats(0, 2),
+    filter=st.floats(0, 10),
+    rules=st.sampled_from(["2003", "1998"]),
+)
+cascades = st.builds(Cascade, primary=plants, secondary=plants, method=st.sampled_from(["simc", "synthesis"]))
+designs = st.builds(
+    Design,
+    plant=plants,
+    tuning=tunings,
+    form=st.sampled_from(["series", "ideal", "parallel"]),
+    pins=st.lists(tunings, max_size=4).map(tuple),
+    cascade=cascades,
+)
+
+
+@settings(max_examples=50, deadline=None)
+@given(designs)
+def test_a_link_opens_the_very_same_design(design):
+    assert links.decode(links.encode(design), Design()) == (design, [])
+
+
+@settings(max_examples=25, deadline=None)
+@given(designs)
+def test_a_project_file_opens_the_very_same_design(design):
+    assert project.load(project.dump(design).encode()) == (design, "")
+
+
+def test_complex_pairs_keep_fourteen_digits():
+    plant = Plant(1.0, 0.3, lag_pairs=((0.7, 0.13),))
+    back, _ = links.decode(links.encode(Design(plant)), Design())
+    assert back.plant.lag_pairs[0] == pytest.approx((0.7, 0.13), rel=1e-14)
+
+
+def test_the_address_of_the_default_is_short():
+    assert list(links.encode(Design())) == ["plant", "order"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "why"),
+    [
+        ("tau_c", "abc", "number"),
+        ("tau_c", "-1", "> 0"),
+        ("tau_c", "nan", "finite"),
+        ("tau_c", "1e300", "1e+09"),
+        ("order", "3", "<= 2"),
+        ("order", "1.5", "whole"),
+        ("plant", "1/(s+", "1/(s+"),
+        ("plant", "s", ""),
+        ("form", "PID", "series, ideal, parallel"),
+        ("pins", "1~2", "6 values"),
+        ("pins", "!".join(["1~0~2~1~0~2003"] * 5), "at most 4"),
+        ("Ms_inner", "0.5", ">= 1.05"),
+        ("method", "magic", "simc, synthesis"),
+        ("colour", "red", "no parameter"),
+        ("plant", "1" * 5000, "2000 characters"),
+    ],
+)
+def test_nonsense_is_left_out_and_told(name, value, why):
+    design, ignored = links.decode({name: value, "b": "0.5"}, Design())
+    assert design == Design(tuning=Tuning(b=0.5))
+    assert [(one.name, one.value) for one in ignored] == [(name, value)]
+    if name != "plant":
+        assert why in ignored[0].why
+    assert len(str(ignored[0])) < 400
+
+
+def good() -> dict:
+    return json.loads(project.dump(Design()))
+
+
+@pytest.mark.parametrize(
+    ("data", "why"),
+    [
+        (b"\xff\xfe", "not JSON"),
+        (b"{", "not JSON"),
+        (b"[" * 100_000, "not JSON"),
+        (b" " * 300_000, "at most"),
+        (b"[1, 2]", "not a project file"),
+        (json.dumps(good() | {"version": 2}).encode(), "version must be 1, got 2"),
+        (json.dumps(good() | {"version": True}).encode(), "version must be 1"),
+        (json.dumps(good() | {"design": {"order": "1"}}).encode(), "must hold a plant"),
+        (json.dumps(good() | {"design": {"plant": 3}}).encode(), "object of texts"),
+        (json.dumps(good() | {"design": good()["design"] | {"tau_c": "-2"}}).encode(), "tau_c"),
+        (json.dumps(good() | {"design": good()["design"] | {"colour": "red"}}).encode(), "colour"),
+    ],
+)
+def test_a_wrong_file_gives_no_design_and_the_reason(data, why):
+    design, reason = project.load(data)
+    assert design is None
+    assert why in reason
+
+
+def test_tight_is_written_as_nothing_and_infinity_is_not_a_number_here():
+    assert "tau_c" not in links.encode(Design(tuning=Tuning(tau_c=None)))
+    _, ignored = links.decode({"tau_c": str(math.inf)}, Design())
+    assert ignored
