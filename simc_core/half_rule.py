@@ -1,0 +1,183 @@
+"""The half rule: from a plant to a first- or second-order model with effective delay [SK03 eq. 10-11; SK98; V06].
+
+Lags sorted tau_10 >= tau_20 >= ..., T_j^inv = -T_j of the right-half-plane zeros, h the sampling period:
+
+    order 1   tau1 = tau_10 + tau_20/2
+              theta = theta_0 + tau_20/2 + sum_{i>=3} tau_i0 + sum T_j^inv + h/2
+    order 2   tau1 = tau_10, tau2 = tau_20 + tau_30/2
+              theta = theta_0 + tau_30/2 + sum_{i>=4} tau_i0 + sum T_j^inv + h/2
+
+An integrator counts as a lag without limit. Behind two integrators, an unstable or an oscillating pole the
+small lags go to the delay whole: there is no slow lag that could take half of the largest.
+
+Positive numerator time constants are removed first, by rules that need the theta they lead to (zeros.py). All
+fixed points are found: between two changes of any comparison theta_out is a straight line in theta, so each such
+interval has at most one, and the intervals are visited one by one. Lines with a slope (2.5 or 5, from the 5 theta
+of T3) are left out: their fixed points repel, a delay assumed a little smaller leads to one smaller still, so
+that they mark the border between two models and are none themselves. E12: 0.3, [1.3], 0.8.
+"""
+
+import math
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+
+from simc_core import checks
+from simc_core.dynamics import Dynamics, dynamics
+from simc_core.errors import InvalidParameter
+from simc_core.loop import Loop
+from simc_core.margins import margins
+from simc_core.models import IntegratingDelay, Model, SecondOrderDelay
+from simc_core.plant import Plant
+from simc_core.reduction import Candidate, Reduction
+from simc_core.simc import simc
+from simc_core.split import Outcome, delay_of, model_of, resolved, shape_of
+from simc_core.story import budget, notes, steps
+from simc_core.zeros import Lag, Line, Walk, remove_leads
+from simc_core.zeros_1998 import remove_leads_1998
+
+RULES = ("2003", "1998")
+LARGEST_MS = 2.0  # the default candidate is the fastest one whose tight loop stays below this peak
+MOST_PROBES = 400  # of theta between changes of the rules; a dozen is usual, a dozen zeros need about 100
+INSIDE = 0.414  # where an interval is probed; not the middle, where symmetric plants have their changes
+SAME = 1e-9  # relative; two delays this close are one
+
+
+def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003") -> Reduction:
+    """Reduce `plant` to a model of `order` 1 (PI) or 2 (PID); h: sampling period of a digital controller.
+
+    rules: "2003" (T1-T3) or "1998" (small zeros subtracted from theta) for positive numerator time constants.
+    Of several self-consistent delays the smallest > 0 is taken whose SIMC loop at tau_c = theta has Ms <= 2
+    round the ORIGINAL plant; all others are in `alternatives` and `candidates`.
+    Raises NotReducible for plants without a SIMC model, InvalidParameter for order, h or rules out of bounds.
+    """
+    order = checks.whole("order", order, 1, 2)
+    h = checks.optional_time("h", h)
+    if rules not in RULES:
+        raise InvalidParameter(f'rules must be "2003" or "1998", got {rules!r}')
+    parts = dynamics(plant)
+    candidates, outcome = _reduce(plant, parts, order, h, rules)
+    chosen = next(candidate for candidate in candidates if candidate.chosen)
+    other = chosen.model if order == 2 else _second_order(plant, parts, h, rules)
+    pays = other.tau2 > other.theta if isinstance(other, SecondOrderDelay | IntegratingDelay) else None
+    return Reduction(
+        chosen.model,
+        steps(parts, outcome, h, candidates),
+        tuple(candidate.model for candidate in candidates if not candidate.chosen),
+        budget(parts, outcome, h),
+        candidates,
+        notes(parts, chosen.model, order, other, pays),
+        pays,
+    )
+
+
+def _second_order(plant: Plant, parts: Dynamics, h: float, rules: str) -> Model:
+    candidates, _ = _reduce(plant, parts, 2, h, rules)
+    return next(candidate.model for candidate in candidates if candidate.chosen)
+
+
+def _reduce(plant: Plant, parts: Dynamics, order: int, h: float, rules: str) -> tuple[tuple[Candidate, ...], Outcome]:
+    """All candidates, smallest delay first, one of them chosen, and how that one came about."""
+    if rules == "1998":
+        found = [_at_1998(parts, order, h)]
+    else:
+        found = _self_consistent(lambda theta: _at(parts, order, h, theta), _longest_delay(parts, h))
+    models = [model_of(parts, outcome) for outcome in found]
+    candidates = _choose(plant, models)
+    chosen = next(i for i, candidate in enumerate(candidates) if candidate.chosen)
+    return candidates, found[chosen]
+
+
+def _longest_delay(parts: Dynamics, h: float) -> float:
+    return parts.theta + sum(parts.lags) + sum(parts.inverse) + h / 2
+
+
+def _at(parts: Dynamics, order: int, h: float, theta: float) -> Outcome:
+    """The rules of 2003 with `theta` assumed; the line `theta` of the outcome is what comes out."""
+    walk = Walk(theta)
+    lags = [Lag(i, Line(tau)) for i, tau in enumerate(parts.lags)]
+    removal = remove_leads(list(enumerate(parts.leads)), lags, parts.integrators, walk)
+    shape = shape_of(parts, order, removal.integrators)
+    return Outcome(removal, shape, delay_of(parts, removal.lags, shape, h), tuple(walk.breaks))
+
+
+def _at_1998(parts: Dynamics, order: int, h: float) -> Outcome:
+    """The rules of 1998; nothing in them depends on theta."""
+
+    def delay(lags: list[Lag], integrators: int) -> float:
+        return delay_of(parts, lags, shape_of(parts, order, integrators), h).at
+
+    lags = [Lag(i, Line(tau)) for i, tau in enumerate(parts.lags)]
+    removal = remove_leads_1998(list(enumerate(parts.leads)), lags, parts.integrators, delay)
+    shape = shape_of(parts, order, removal.integrators)
+    theta = delay_of(parts, removal.lags, shape, h).at - removal.subtracted
+    return Outcome(removal, shape, Line(theta), ())
+
+
+def _self_consistent(at: Callable[[float], Outcome], longest: float) -> list[Outcome]:
+    """Outcomes whose delay is the one assumed, smallest first; where there is none, the nearest."""
+    proposed: set[float] = set()
+    probed: list[tuple[float, Outcome]] = []
+
+    def probe(theta: float) -> Outcome:
+        outcome = at(theta)
+        probed.append((theta, outcome))
+        if not outcome.theta.slope:
+            proposed.add(outcome.theta.at)
+        return outcome
+
+    intervals = deque([(0.0, longest)])
+    probe(0.0)
+    while intervals and len(probed) < MOST_PROBES:
+        low, high = intervals.popleft()
+        if high - low <= SAME * longest:
+            continue
+        theta = low + INSIDE * (high - low)
+        breaks = probe(theta).breaks
+        below = max((b for b in breaks if low < b < theta), default=low)
+        above = min((b for b in breaks if theta < b < high), default=high)
+        if below > low:
+            probe(below)
+            intervals.append((low, below))
+        if above < high:
+            probe(above)
+            intervals.append((above, high))
+    found: list[Outcome] = []
+    for theta in sorted(value for value in proposed if 0 <= value <= longest * (1 + SAME)):
+        outcome = at(theta)
+        value = outcome.theta(theta)
+        if abs(value - theta) <= SAME * longest and not any(_same(value, other, longest) for other in found):
+            found.append(resolved(outcome, theta))
+    return found or [_nearest(probed)]
+
+
+def _same(theta: float, other: Outcome, longest: float) -> bool:
+    return abs(theta - other.theta.at) <= 2 * SAME * longest
+
+
+def _nearest(probed: list[tuple[float, Outcome]]) -> Outcome:
+    """Where theta_out jumps across theta there is no fixed point (2 of 12000 random plants): the closest probe."""
+    theta, outcome = min(probed, key=lambda item: abs(item[1].theta(item[0]) - item[0]))
+    return replace(resolved(outcome, theta), consistent=False)
+
+
+def _choose(plant: Plant, models: list[Model]) -> tuple[Candidate, ...]:
+    """Candidates with Ms; the smallest theta > 0 with Ms <= 2, else the smallest Ms, else the largest theta."""
+    if len(models) == 1:
+        return (Candidate(models[0].theta, models[0], math.nan, True),)
+    peaks = [_tight_Ms(plant, model) for model in models]
+    good = [i for i, Ms in enumerate(peaks) if Ms <= LARGEST_MS]
+    finite = [i for i, Ms in enumerate(peaks) if math.isfinite(Ms)]
+    chosen = good[0] if good else min(finite, key=lambda i: peaks[i], default=len(models) - 1)
+    return tuple(
+        Candidate(model.theta, model, Ms, i == chosen) for i, (model, Ms) in enumerate(zip(models, peaks, strict=True))
+    )
+
+
+def _tight_Ms(plant: Plant, model: Model) -> float:
+    """Ms of the SIMC loop at tau_c = theta round the original plant, nan where there is no such stable loop."""
+    try:
+        controller = simc(model)
+    except InvalidParameter:
+        return math.nan
+    return margins(Loop(plant, controller)).Ms

@@ -1,0 +1,134 @@
+"""SIMC settings [SK03 Table 1; SK98 eq. 23-24; V06 Tables 1-2], one rule per model.
+
+    series form  C(s) = Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1),   q = tau_c + theta
+
+    k e^{-theta s}                              I only: K_I = 1/(k q)
+    k e^{-theta s}/(tau1 s+1)                   Kc = tau1/(k q)      tau_I = min(tau1, 4 q)
+    k e^{-theta s}/((tau1 s+1)(tau2 s+1))       the same, tau_D = tau2
+    k' e^{-theta s}/(s (tau2 s+1))              Kc = 1/(k' q)        tau_I = 4 q     tau_D = tau2
+    k'' e^{-theta s}/s^2                        Kc = 1/(4 k'' q^2)   tau_I = 4 q     tau_D = 4 q
+    k' e^{-theta s}/((s-a)(tau2 s+1))           Kc = 0.5/(k' theta)  tau_I = 8 theta f  tau_D = tau2; tau_c = theta only
+    k e^{-theta s}/(tau0^2 s^2 + 2 zeta tau0 s + 1)
+                                    IDEAL form: Kc = 2 zeta tau0/(k q)   tau_I = 2 zeta tau0   tau_D = tau0/(2 zeta)
+
+tau_c, the closed-loop time constant, is the only tuning parameter; tau_c = theta is "tight".
+"""
+
+import math
+
+from simc_core import checks
+from simc_core.controllers import IController, IdealPid, SeriesPid
+from simc_core.errors import InvalidParameter
+from simc_core.models import (
+    DoubleIntegratingDelay,
+    FirstOrderDelay,
+    IntegratingDelay,
+    Model,
+    OscillatingDelay,
+    SecondOrderDelay,
+    UnstableDelay,
+)
+
+A_THETA_LIMIT = 0.5  # the rule for unstable poles ends here; the plant itself can be stabilised up to a theta = 1
+SAME_TAU_C = 1e-6  # relative; a tau_c that came through a link's decimal text still counts as theta
+
+
+def simc(model: Model, tau_c: float | None = None) -> SeriesPid | IdealPid | IController:
+    """SIMC settings for `model`, see the module docstring. tau_c=None means tau_c = theta.
+
+    Raises InvalidParameter: tau_c <= 0 or not above -theta, tau_c=None for a model without dead time,
+    and where the rule of the model ends (a theta >= 0.5, undamped oscillation).
+    """
+    if isinstance(model, UnstableDelay):
+        return _unstable(model, tau_c)
+    q = _tau_c(model.theta, tau_c) + model.theta
+    match model:
+        case FirstOrderDelay(k, _, tau1):
+            return _stable(k, tau1, 0.0, q)
+        case SecondOrderDelay(k, _, tau1, tau2):
+            return _stable(k, tau1, tau2, q)
+        case IntegratingDelay(k_prime, _, tau2):
+            return SeriesPid(1 / (k_prime * q), 4 * q, tau2)
+        case DoubleIntegratingDelay(k_double_prime, _):
+            return SeriesPid(1 / (4 * k_double_prime * q**2), 4 * q, 4 * q)
+        case OscillatingDelay(k, _, tau0, zeta):
+            return _oscillating(k, tau0, zeta, q)
+    raise InvalidParameter(f"model must be one of the reduced models, got {type(model).__name__}")
+
+
+def tau_c_presets(model: Model) -> dict[str, float]:
+    """Named choices of tau_c: tight, tau_c = theta [SK03]; the others by Arbogast, Cooper and Rice [V06 eq. 7].
+
+    aggressive max(0.1 tau1, 0.8 theta), moderate max(tau1, 8 theta), conservative max(10 tau1, 80 theta).
+    tau1 counts as 0 for integrating models; choices that would be tau_c = 0 are left out, and an unstable
+    model has the tight one only.
+    """
+    if isinstance(model, UnstableDelay):
+        return {"tight": model.theta} if model.theta else {}
+    match model:
+        case FirstOrderDelay() | SecondOrderDelay():
+            tau1 = model.tau1
+        case OscillatingDelay():
+            tau1 = model.tau0
+        case _:
+            tau1 = 0.0
+    presets = {
+        "tight": model.theta,
+        "aggressive": max(0.1 * tau1, 0.8 * model.theta),
+        "moderate": max(tau1, 8 * model.theta),
+        "conservative": max(10 * tau1, 80 * model.theta),
+    }
+    return {name: tau_c for name, tau_c in presets.items() if tau_c > 0}
+
+
+def unstable_factor(a_theta: float) -> float:
+    """f(a theta) = (1 + a theta/(2 (1 - 2 a theta)))/(1 - 2 a theta) [SK98 eq. 24], 0 <= a theta < 0.5."""
+    a_theta = checks.real("a theta", a_theta, low=0.0)
+    if a_theta >= A_THETA_LIMIT:
+        raise InvalidParameter(
+            f"a theta must be < {A_THETA_LIMIT:g} for the SIMC rule of an unstable pole, got {a_theta:g}: "
+            "the dead time is too long for it"
+        )
+    rest = 1 - 2 * a_theta
+    return (1 + a_theta / (2 * rest)) / rest
+
+
+def _tau_c(theta: float, tau_c: float | None) -> float:
+    """tau_c checked; None becomes theta."""
+    if tau_c is None:
+        if theta == 0:
+            raise InvalidParameter("tau_c must be given for a model without dead time (theta = 0), got None")
+        return theta
+    number = checks.real("tau_c", tau_c, high=checks.LONGEST_TIME)
+    if number <= -theta < 0:
+        raise InvalidParameter(f"tau_c must be > 0, and above -theta = {-theta:g} in any case, got {number:g}")
+    if number <= 0:
+        raise InvalidParameter(f"tau_c must be > 0, got {number:g}")
+    return checks.positive_time("tau_c", number)
+
+
+def _stable(k: float, tau1: float, tau2: float, q: float) -> SeriesPid | IController:
+    if tau1 == 0:
+        return IController(1 / (k * q))
+    return SeriesPid(tau1 / (k * q), min(tau1, 4 * q), tau2)
+
+
+def _oscillating(k: float, tau0: float, zeta: float, q: float) -> IdealPid:
+    if zeta == 0:
+        raise InvalidParameter(
+            "zeta must be > 0 for the SIMC rule, got 0: it cancels the poles, and undamped ones would ring for ever"
+        )
+    return IdealPid(2 * zeta * tau0 / (k * q), 2 * zeta * tau0, tau0 / (2 * zeta))
+
+
+def _unstable(model: UnstableDelay, tau_c: float | None) -> SeriesPid:
+    if model.theta == 0:
+        raise InvalidParameter("theta must be > 0 for the SIMC rule of an unstable pole (Kc = 0.5/(k' theta)), got 0")
+    if tau_c is not None and not math.isclose(
+        checks.real("tau_c", tau_c), model.theta, rel_tol=SAME_TAU_C, abs_tol=0.0
+    ):
+        raise InvalidParameter(
+            f"tau_c must be theta = {model.theta:g} for an unstable pole, got {tau_c:g}: the rule knows no other"
+        )
+    f = unstable_factor(model.a * model.theta)
+    return SeriesPid(0.5 / (model.k_prime * model.theta), 8 * model.theta * f, model.tau2)

@@ -1,0 +1,221 @@
+"""The reduction told line by line, its budget, and advice; made from the outcome, so that they cannot disagree."""
+
+import math
+
+from simc_core.dynamics import Dynamics
+from simc_core.models import (
+    DoubleIntegratingDelay,
+    FirstOrderDelay,
+    Model,
+    OscillatingDelay,
+    SecondOrderDelay,
+    UnstableDelay,
+)
+from simc_core.notation import latex, latex_number, number
+from simc_core.reduction import Candidate, Share, Step
+from simc_core.split import Outcome
+from simc_core.zeros import Match
+
+NAMES = {"tau1": r"\tau_1", "tau2": r"\tau_2"}
+WHERE = {
+    "T1": "T0 >= tau0 >= theta",
+    "T1a": "T0 >= theta >= tau0",
+    "T1b": "theta >= T0 >= tau0",
+    "T2": "tau0 >= T0 >= 5 theta",
+    "T3": "min(tau0, 5 theta) >= T0",
+}
+
+
+def steps(parts: Dynamics, outcome: Outcome, h: float, candidates: tuple[Candidate, ...]) -> tuple[Step, ...]:
+    """What was done, in order."""
+    chosen = next(candidate for candidate in candidates if candidate.chosen)
+    told = [*parts.steps]
+    told += [_match_step(match, chosen.theta) for match in outcome.removal.matches]
+    told += _half_rule_steps(outcome)
+    told.append(_delay_step(parts, outcome, h, chosen.theta))
+    if isinstance(chosen.model, SecondOrderDelay) and _swapped(outcome):
+        larger, smaller = chosen.model.tau1, chosen.model.tau2
+        text = f"tau2 = {number(larger)} came out larger than tau1 = {number(smaller)}: the two change places."
+        told.append(Step("swap", text, r"\tau_1 \leftrightarrow \tau_2", {"tau1": larger, "tau2": smaller}))
+    if not outcome.consistent:
+        text = "No delay is consistent with the rules T1-T3 here (they jump across it); the nearest is taken."
+        told.append(Step("choice", text, rf"\theta \approx {latex_number(chosen.theta)}", {"theta": chosen.theta}))
+    if len(candidates) > 1:
+        told.append(_choice_step(candidates, chosen))
+    told.append(Step("model", "The reduced model.", rf"G_r(s) = {latex(chosen.model)}", _fields(chosen.model)))
+    return tuple(told)
+
+
+def budget(parts: Dynamics, outcome: Outcome, h: float) -> tuple[Share, ...]:
+    """What became of every lag, zero and delay of the plant."""
+    pieces: dict[int, list[tuple[str, float]]] = {i: [] for i in range(len(parts.lags))}
+    origin: list[list[tuple[str, float]]] = [[] for _ in range(parts.integrators)]
+    for match in outcome.removal.matches:
+        if match.lag >= 0:
+            pieces[match.lag].append((match.rule, match.tau0 - match.rest))
+        elif match.lag == -1 and math.isinf(match.tau0):
+            next(parts_ for parts_ in origin if not parts_).append((match.rule, math.inf))
+    for index, where, amount in _allocation(outcome):
+        if index >= 0:
+            pieces[index].append((where, amount))
+    shares = [Share(f"lag {number(tau)}", "lag", tau, tuple(pieces[i])) for i, tau in enumerate(parts.lags)]
+    shares += [Share("integrator", "integrator", math.inf, tuple(done or [("slope", math.inf)])) for done in origin]
+    if parts.unstable:
+        shares.append(
+            Share(f"unstable pole {number(parts.unstable)}", "unstable", parts.unstable, (("a", parts.unstable),))
+        )
+    if parts.pair:
+        tau0 = parts.pair[0]
+        shares.append(Share(f"pair {number(tau0)}", "pair", tau0, (("tau0", tau0),)))
+    rule_of = {match.lead: match.rule for match in outcome.removal.matches}
+    shares += [Share(f"zero {number(T)}", "lead", T, ((rule_of[i], T),)) for i, T in enumerate(parts.leads)]
+    shares += [Share(f"inverse zero {number(T)}", "inverse", T, (("theta", T),)) for T in parts.inverse]
+    if parts.theta:
+        shares.append(Share(f"dead time {number(parts.theta)}", "dead time", parts.theta, (("theta", parts.theta),)))
+    if h:
+        shares.append(Share(f"sampling h/2 = {number(h / 2)}", "sampling", h / 2, (("theta", h / 2),)))
+    return (*shares, *parts.cancelled)
+
+
+def notes(parts: Dynamics, model: Model, order: int, second: Model, pays: bool | None) -> tuple[str, ...]:
+    """Advice in sentences."""
+    said = []
+    if pays is not None:
+        comparison = f"tau2 = {number(second.tau2)}, theta = {number(second.theta)} of the second-order model"
+        verdict = "pays: tau2 > theta" if pays else "does not pay: tau2 is not larger than theta"
+        said.append(f"Derivative action (order 2) {verdict} ({comparison}).")
+    match model:
+        case DoubleIntegratingDelay():
+            said.append("Two integrators need derivative action: the model is the same for order 1 and 2.")
+        case OscillatingDelay():
+            said.append(
+                "The oscillating pair is kept whatever the order; its rule is a PID in ideal form. "
+                "Input disturbances stay oscillatory for small zeta, since the controller cancels the pair."
+            )
+        case UnstableDelay() if order == 1 and parts.lags:
+            said.append(
+                "Beside an unstable pole order 1 puts every lag into the delay whole; order 2 keeps the largest."
+            )
+        case FirstOrderDelay(tau1=0.0):
+            said.append("No lag is left: pure dead time, whose SIMC controller is a pure integrator.")
+    if isinstance(model, SecondOrderDelay) and model.tau2 == 0:
+        said.append("There is no second lag: the model is of first order and its controller a PI.")
+    if model.theta == 0:
+        said.append(
+            "The effective delay is 0: tau_c = theta is no choice here, give tau_c yourself. "
+            "What limits the speed is not in this model."
+        )
+    return tuple(said)
+
+
+def _match_step(match: Match, theta: float) -> Step:
+    T0, tau0, rest = latex_number(match.T0), latex_number(match.tau0), latex_number(match.rest)
+    amounts = {"T0": match.T0, "tau0": match.tau0, "theta": theta, "rest": match.rest, "gain": match.gain}
+    if match.rule == "1998 small":
+        text = f"1998 rule: the zero {number(match.T0)} is small (not above theta) and is subtracted from the delay."
+        return Step(match.rule, text, rf"{T0} s + 1 \approx e^{{{T0} s}}", amounts)
+    integrator = math.isinf(match.tau0)
+    below = "s" if integrator else f"{tau0} s + 1"
+    gain = latex_number(match.gain)
+    becomes = rf"\frac{{{gain}}}{{{rest} s + 1}}" if match.rest else gain
+    equation = rf"\frac{{{T0} s + 1}}{{{below}}} \approx {becomes}"
+    against = "the integrator" if integrator else f"the lag {number(match.tau0)}"
+    outcome = f"a lag of {number(match.rest)} is left" if match.rest else "both vanish"
+    if match.rule.startswith("1998"):
+        text = f"1998 rule: the zero {number(match.T0)} meets {against}; {outcome}."
+    else:
+        where = f"{WHERE[match.rule]} with theta = {number(theta)}"
+        text = f"Rule {match.rule} ({where}): the zero {number(match.T0)} meets {against}; {outcome}"
+        text += "." if match.gain == 1 else f", gain times {number(match.gain)}."
+    return Step(match.rule, text, equation, amounts)
+
+
+def _allocation(outcome: Outcome) -> list[tuple[int, str, float]]:
+    """(index of the lag, where, time) for every lag that the zeros have left."""
+    names, absorber = outcome.shape.kept, outcome.shape.absorber
+    if _swapped(outcome):
+        names = names[::-1]
+        absorber = "tau1"
+    placed = []
+    for i, lag in enumerate(outcome.removal.lags):
+        tau = lag.tau.at
+        if i < len(names):
+            placed.append((lag.index, names[i], tau))
+        elif i == len(names) and absorber:
+            placed += [(lag.index, absorber, tau / 2), (lag.index, "theta", tau / 2)]
+        else:
+            placed.append((lag.index, "theta", tau))
+    return placed
+
+
+def _swapped(outcome: Outcome) -> bool:
+    lags = [lag.tau.at for lag in outcome.removal.lags]
+    return outcome.shape.kept == ("tau1", "tau2") and len(lags) > 2 and lags[1] + lags[2] / 2 > lags[0]
+
+
+def _half_rule_steps(outcome: Outcome) -> list[Step]:
+    """Which lags are kept, and which one is split."""
+    names, absorber = outcome.shape.kept, outcome.shape.absorber
+    lags = [lag.tau.at for lag in outcome.removal.lags]
+    told = []
+    for name, tau in zip(names, lags, strict=False):
+        text = f"The lag {number(tau)} is kept as {name}."
+        told.append(Step("keep", text, rf"{NAMES[name]} = {latex_number(tau)}", {name: tau}))
+    if absorber and len(lags) > len(names):
+        tau = lags[len(names)]
+        half = latex_number(tau / 2)
+        if absorber == "integrator":
+            text = f"Half rule: the lag {number(tau)} is split; the integrator absorbs half, half goes to theta."
+            equation = rf"\frac{{{latex_number(tau)}}}{{2}} = {half}"
+        else:
+            kept = lags[len(names) - 1]
+            text = f"Half rule: the lag {number(tau)} is split; one half goes to {absorber}, the other to theta."
+            total = latex_number(kept + tau / 2)
+            equation = rf"{NAMES[absorber]} = {latex_number(kept)} + \frac{{{latex_number(tau)}}}{{2}} = {total}"
+        told.append(Step("half rule", text, equation, {"tau": tau, "half": tau / 2}))
+    return told
+
+
+def _delay_step(parts: Dynamics, outcome: Outcome, h: float, theta: float) -> Step:
+    """The sum that makes the effective delay."""
+    terms = [("dead time", parts.theta)] if parts.theta else []
+    terms += [("lag", amount) for _, where, amount in _allocation(outcome) if where == "theta"]
+    terms += [("inverse response zero", T) for T in parts.inverse]
+    terms += [("h/2", h / 2)] if h else []
+    subtracted = [match.T0 for match in outcome.removal.matches if match.rule == "1998 small"]
+    total = " + ".join(latex_number(amount) for _, amount in terms) or "0"
+    total += "".join(f" - {latex_number(T)}" for T in subtracted)
+    if len(terms) + len(subtracted) > 1:
+        total += f" = {latex_number(theta)}"
+    sources = [
+        *(["the dead time"] if parts.theta else []),
+        *(["what the lags leave"] if any(kind == "lag" for kind, _ in terms) else []),
+        *(["the right-half-plane zeros"] if parts.inverse else []),
+        *(["half the sampling period"] if h else []),
+    ]
+    text = f"Effective delay: {', '.join(sources) or 'nothing adds to it'}"
+    text += ", less the small zeros." if subtracted else "."
+    return Step("delay", text, rf"\theta = {total}", {"theta": theta})
+
+
+def _choice_step(candidates: tuple[Candidate, ...], chosen: Candidate) -> Step:
+    others = ", ".join(_described(candidate) for candidate in candidates if not candidate.chosen)
+    if chosen.Ms <= 2:
+        why = "it is the smallest delay > 0 whose SIMC loop (tau_c = theta) round the original plant has Ms <= 2"
+    elif math.isfinite(chosen.Ms):
+        why = "no delay gives a SIMC loop with Ms <= 2 round the original plant; this one has the smallest Ms"
+    else:
+        why = "no delay gives a stable SIMC loop round the original plant; this is the most cautious one"
+    text = f"The rules T1-T3 hold for more than one delay: also for {others}. "
+    text += f"Taken is theta = {_described(chosen)}: {why}."
+    equation = r"\theta \in \{" + ",\\ ".join(latex_number(candidate.theta) for candidate in candidates) + r"\}"
+    return Step("choice", text, equation, {"theta": chosen.theta, "Ms": chosen.Ms})
+
+
+def _described(candidate: Candidate) -> str:
+    peak = f"Ms {number(candidate.Ms, 3)}" if math.isfinite(candidate.Ms) else "no stable SIMC loop"
+    return f"{number(candidate.theta)} ({peak})"
+
+
+def _fields(model: Model) -> dict[str, float]:
+    return {name: getattr(model, name) for name in model.__dataclass_fields__}

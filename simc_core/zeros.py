@@ -1,0 +1,192 @@
+"""Rules T1-T3 [SK03 eq. 10]: positive numerator time constants against lags.
+
+(T0 s+1)/(tau0 s+1) is approximated, with the FINAL effective delay theta, by
+
+    T1   T0/tau0                              T0 >= tau0 >= theta
+    T1a  T0/theta                             T0 >= theta >= tau0
+    T1b  1                                    theta >= T0 >= tau0
+    T2   T0/tau0                              tau0 >= T0 >= 5 theta
+    T3   (t/tau0)/((t - T0) s + 1)            t = min(tau0, 5 theta) >= T0
+
+tau0 is the closest larger lag (T2, T3); the closest smaller one, tau0b (T1, T1a, T1b), if there is no larger one
+or if T0/tau0b < tau0a/T0 and T0/tau0b < 1.6 (tau0a: the closest larger one). An integrator is a lag without limit,
+so that (T0 s+1)/s is T0 for T0 >= 5 theta. Zeros are taken largest first, and the lags are sorted anew after each.
+
+Since theta is not known beforehand, the rules are followed along theta: every time constant is a line
+at + slope theta (T3 makes 5 theta - T0 out of a large lag), and every comparison notes the values of theta
+at which it would turn out differently. Between two of those the outcome is one straight line (half_rule.py).
+"""
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple
+
+from simc_core.errors import NotReducible
+from simc_core.notation import number
+
+CLOSE = 1.6  # a smaller lag counts as close to the zero below this ratio
+GUARD = 1e-9  # relative; 0.08/0.05 is 1.6 on paper and 1.5999999999999999 in doubles
+T2_LIMIT = 5.0  # T2 from T0 = 5 theta on
+
+
+class Line(NamedTuple):
+    """at + slope theta."""
+
+    at: float
+    slope: float = 0.0
+
+    def __call__(self, theta: float) -> float:
+        return self.at + self.slope * theta if self.slope else self.at
+
+
+@dataclass(frozen=True, slots=True)
+class Lag:
+    """A lag on its way through the rules. index: which lag it was (Dynamics.lags); -1 for an integrator."""
+
+    index: int
+    tau: Line
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """One application of a rule: which zero, which lag (value tau0 at that moment), what is left of it."""
+
+    rule: str
+    lead: int
+    T0: float
+    lag: int
+    tau0: float
+    rest: float
+    gain: float
+
+
+@dataclass(slots=True)
+class Walk:
+    """Comparisons at one theta, and the values of theta at which one of them changes."""
+
+    theta: float
+    breaks: list[float] = field(default_factory=list)
+
+    def at_least(self, a: Line, b: Line) -> bool:
+        """a >= b at this theta, equality within the guard included."""
+        slope = a.slope - b.slope
+        if slope:
+            self.breaks.append((b.at - a.at) / slope)
+        left, right = a(self.theta), b(self.theta)
+        return left >= right or math.isclose(left, right, rel_tol=GUARD)
+
+    def closer(self, T0: float, below: Line, above: Line) -> bool:
+        """T0/below < above/T0 and T0/below < 1.6."""
+        for other in (below, above):
+            if other.slope:
+                self.breaks += _crossings(below, above, T0 * T0)
+                break
+        if below.slope:
+            self.breaks.append((T0 / CLOSE - below.at) / below.slope)
+        ratio = T0 / below(self.theta)
+        return ratio < above(self.theta) / T0 * (1 - GUARD) and ratio < CLOSE * (1 - GUARD)
+
+
+def _crossings(a: Line, b: Line, level: float) -> list[float]:
+    """theta with a(theta) b(theta) = level."""
+    if math.isinf(a.at) or math.isinf(b.at):
+        return []
+    square, linear, constant = a.slope * b.slope, a.at * b.slope + b.at * a.slope, a.at * b.at - level
+    if square == 0:
+        return [-constant / linear] if linear else []
+    root = linear * linear - 4 * square * constant
+    if root < 0:
+        return []
+    return [(-linear + sign * math.sqrt(root)) / (2 * square) for sign in (-1, 1)]
+
+
+@dataclass(frozen=True, slots=True)
+class Removal:
+    """Outcome of the rules at one theta: lags left, sorted, largest first (integrators not among them).
+
+    subtracted: what the rules of 1998 take off the delay.
+    """
+
+    lags: tuple[Lag, ...]
+    integrators: int
+    gain: float
+    matches: tuple[Match, ...]
+    subtracted: float = 0.0
+
+
+def remove_leads(leads: list[tuple[int, float]], lags: list[Lag], integrators: int, walk: Walk) -> Removal:
+    """Step A of the half rule at walk.theta: all positive numerator time constants, largest first.
+
+    leads: (index in the plant, T0). Raises NotReducible where a zero meets neither a lag nor an integrator.
+    """
+    lags, matches, gain = list(lags), [], 1.0
+    for index, T0 in sorted(leads, key=lambda lead: -lead[1]):
+        lag, smaller = _partner(T0, lags, integrators, walk)
+        match, rest = (_smaller if smaller else _larger)(index, T0, lag, walk)
+        matches.append(match)
+        gain *= match.gain
+        if math.isinf(lag.tau.at):
+            integrators -= 1
+        else:
+            lags.remove(lag)
+        if rest is not None:
+            lags.append(replace(lag, tau=rest))
+    return Removal(tuple(sorted_lags(lags, walk)), integrators, gain, tuple(matches))
+
+
+def sorted_lags(lags: list[Lag], walk: Walk) -> list[Lag]:
+    """Largest first; every pair that could change places is noted."""
+    for moving in lags:
+        if moving.tau.slope:
+            for other in lags:
+                walk.at_least(moving.tau, other.tau)
+    return sorted(lags, key=lambda lag: -lag.tau(walk.theta))
+
+
+def _partner(T0: float, lags: list[Lag], integrators: int, walk: Walk) -> tuple[Lag, bool]:
+    """The lag that a zero T0 meets, and whether it is the smaller one."""
+    ordered = sorted_lags(lags, walk)
+    zero = Line(T0)
+    above, below = [], []
+    for lag in ordered:
+        (above if walk.at_least(lag.tau, zero) else below).append(lag)
+    if integrators and not above:
+        above = [Lag(-1, Line(math.inf))]
+    if not above and not below:
+        raise no_lag(T0)
+    if not above:
+        return below[0], True
+    if below and walk.closer(T0, below[0].tau, above[-1].tau):
+        return below[0], True
+    return above[-1], False
+
+
+def _larger(index: int, T0: float, lag: Lag, walk: Walk) -> tuple[Match, Line | None]:
+    """T2 or T3. Behind an integrator the gain is that of 1/s itself: T0, or 5 theta."""
+    tau0, five = lag.tau(walk.theta), Line(0.0, T2_LIMIT)
+    scale = 1.0 if math.isinf(tau0) else tau0
+    if walk.at_least(Line(T0), five):
+        return Match("T2", index, T0, lag.index, tau0, 0.0, T0 / scale), None
+    t = five if walk.at_least(lag.tau, five) else lag.tau
+    rest = Line(t.at - T0, t.slope)
+    if rest(walk.theta) <= GUARD * T0:
+        return Match("T3", index, T0, lag.index, tau0, 0.0, t(walk.theta) / scale), None
+    return Match("T3", index, T0, lag.index, tau0, rest(walk.theta), t(walk.theta) / scale), rest
+
+
+def _smaller(index: int, T0: float, lag: Lag, walk: Walk) -> tuple[Match, None]:
+    """T1, T1a or T1b."""
+    theta, tau0 = Line(0.0, 1.0), lag.tau(walk.theta)
+    if walk.at_least(lag.tau, theta):
+        return Match("T1", index, T0, lag.index, tau0, 0.0, T0 / tau0), None
+    if walk.at_least(Line(T0), theta):
+        return Match("T1a", index, T0, lag.index, tau0, 0.0, T0 / walk.theta), None
+    return Match("T1b", index, T0, lag.index, tau0, 0.0, 1.0), None
+
+
+def no_lag(T0: float) -> NotReducible:
+    """The error for a zero T0 that nothing is left for."""
+    return NotReducible(
+        f"zero with T = {number(T0)} has no lag left to be set against: the half rule does not cover this plant. "
+        "Tune on a model of your own (for instance a fit to the step response), or by the loop's margins"
+    )
