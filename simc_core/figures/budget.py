@@ -1,0 +1,70 @@
+"""Picture of a model reduction: one bar per lag, zero and dead time, cut into what became of it."""
+
+import math
+
+from simc_core.figures import palette
+from simc_core.figures.palette import Figure, Trace
+from simc_core.reduction import Reduction, Share
+
+# where a part went -> (words, colour, pattern): the pattern says what the colour says
+FATES = {
+    "tau1": ("kept as τ₁", palette.REDUCED, ""),
+    "tau2": ("kept as τ₂", "#5FBFA0", "-"),
+    "tau0": ("kept as τ₀", palette.REDUCED, ""),
+    "theta": ("into θ", palette.U, "/"),
+    "cancelled": ("cancelled with a zero or lag", palette.NEUTRAL, "x"),
+    "slope": ("into the slope k′", palette.Y, "."),
+    "a": ("kept as the unstable pole", palette.D, "\\"),
+}
+
+
+def budget_figure(reduction: Reduction, height: int | None = None) -> Figure:
+    """Horizontal bars, one per Share of the reduction; an integrator, a lag without limit, is drawn to the edge."""
+    shares = reduction.budget
+    finite = [abs(share.amount) for share in shares if math.isfinite(share.amount)]
+    edge = 1.15 * max(finite, default=1.0)
+    traces = [trace for fate in FATES if (trace := _bars(fate, shares, edge))]
+    rows = list(range(len(shares)))
+    return palette.figure(
+        traces,
+        palette.axis("time constant  [time unit]", rangemode="tozero"),
+        palette.axis("", tickvals=rows, ticktext=[share.label for share in shares], autorange="reversed"),
+        height or 70 + 34 * len(shares),
+        barmode="stack",
+        hovermode="closest",
+        bargap=0.3,
+    )
+
+
+def fate(where: str) -> str:
+    """The fate a part belongs to; rules T1 to T3 and the like take a lag and a zero out against each other."""
+    return where if where in FATES else "cancelled"
+
+
+def _bars(name: str, shares: tuple[Share, ...], edge: float) -> Trace | None:
+    words, color, pattern = FATES[name]
+    found = [
+        (row, where, time)
+        for row, share in enumerate(shares)
+        for where, time in share.parts
+        if fate(where) == name and time
+    ]
+    if not found:
+        return None
+    return {
+        "type": "bar",
+        "orientation": "h",
+        "y": [row for row, _, _ in found],
+        "x": [min(abs(time), edge) for _, _, time in found],
+        "text": [_amount(time) for _, _, time in found],
+        "customdata": [f"rule {where}" if name == "cancelled" else words for _, where, _ in found],
+        "textposition": "inside",
+        "insidetextanchor": "middle",
+        "name": words,
+        "marker": {"color": color, "pattern": {"shape": pattern, "size": 6, "solidity": 0.25}},
+        "hovertemplate": "%{text}: %{customdata}<extra></extra>",
+    }
+
+
+def _amount(time: float) -> str:
+    return "∞" if math.isinf(time) else f"{time:.4g}"

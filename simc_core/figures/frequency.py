@@ -1,0 +1,182 @@
+"""Frequency figures: Bode of plants and of L with its margins, |S| and |T| with their peaks, model error."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from simc_core.figures import palette
+from simc_core.figures.curves import BodeCurve, bode_curve
+from simc_core.figures.palette import Figure, Trace
+from simc_core.grid import omega_grid
+from simc_core.loop import FrequencyResponse
+from simc_core.margins import Margins
+from simc_core.plant import Plant
+
+PHASE_VIEW = -540.0  # degrees; dead time winds on for ever, the eye need not follow it
+GAIN_VIEW = (1e-3, 1e3)  # widest span of |L| drawn round 1
+DEEP = 1e-3  # smallest |S|, |T| and relative error drawn
+
+
+def bode_figure(plant: Plant, model: Plant | None = None, height: int | None = None) -> Figure:
+    """Magnitude above, phase below: the full plant, and its reduced model where there is one."""
+    functions = [plant.factored] if model is None else [plant.factored, model.factored]
+    omega = omega_grid(functions)
+    curves = [bode_curve(F, omega) for F in functions]
+    traces = [
+        trace
+        for name, curve, style in zip(("G", "model"), curves, palette.FULL_AND_REDUCED, strict=False)
+        for trace in _bode(name, curve, *style)
+    ]
+    return _bode_layout(traces, "|G|  [y/u]", "∠G  [°]", curves[0], height)
+
+
+def open_loop_figure(
+    curves: Sequence[tuple[str, BodeCurve]], margins: Margins, height: int | None = None
+) -> Figure:
+    """Bode diagram of L, present design first, with GM (both limits), PM and the delay margin drawn in."""
+    traces = [
+        trace
+        for position, (name, curve) in reversed(list(enumerate(curves)))
+        for trace in _bode(name, curve, *palette.shade(palette.Y, position))
+    ]
+    present = curves[0][1]
+    if margins.stable:
+        traces += [*_gain_margins(margins, present), *_phase_margin(margins), *_delay_margin(margins)]
+    figure = _bode_layout(traces, "|L|  [–]", "∠L  [°]", present, height)
+    span = {"color": palette.NEUTRAL, "width": 1, "dash": "dot"}
+    figure["layout"]["shapes"] = [
+        {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "yref": "y", "y0": 1, "y1": 1, "line": span},
+        {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "yref": "y2", "y0": -180, "y1": -180, "line": span},
+    ]
+    if not margins.stable:
+        figure["layout"]["annotations"] = [palette.note("Loop not stable: no margins")]
+    return figure
+
+
+def sensitivity_figure(
+    curves: Sequence[tuple[str, FrequencyResponse]], margins: Margins, height: int | None = None
+) -> Figure:
+    """|S| solid and |T| long-dashed over omega, peaks Ms and Mt of the present design marked."""
+    traces: list[Trace] = []
+    for position, (name, record) in reversed(list(enumerate(curves))):
+        suffix = f" {name}" if position else ""
+        color, dash, width = palette.shade(palette.S, position)
+        traces.append(_magnitude(record.omega, record.S, f"|S|{suffix}", color, dash, width))
+        color, dash, width = palette.shade(palette.Y, position)
+        dash = dash if position else "longdash"
+        traces.append(_magnitude(record.omega, record.T, f"|T|{suffix}", color, dash, width))
+    if margins.stable:
+        traces += _peak(margins.omega_Ms, margins.Ms, "Ms", palette.S, "top right")
+        traces += _peak(margins.omega_Mt, margins.Mt, "Mt", palette.Y, "top left")
+    present = curves[0][1]
+    top = max(2.5, 1.6 * float(np.nanmax(np.abs(np.concatenate([present.S, present.T])))))
+    return palette.figure(
+        traces,
+        palette.log_axis(palette.FREQUENCY, hoverformat=".4g", range=_logs(present.omega[0], present.omega[-1])),
+        palette.log_axis("|S|, |T|  [–]", range=_logs(0.02, min(top, 100.0))),
+        height,
+        shapes=[_at_one()],
+        annotations=[] if margins.stable else [palette.note("Loop not stable: peaks mean nothing")],
+    )
+
+
+def model_error_figure(
+    omega: np.ndarray, error: np.ndarray, bound: np.ndarray | None, height: int | None = None
+) -> Figure:
+    """|G - Gr|/|Gr| against 1/|T| [RMS86 eq. 10]: the loop designed on Gr is stable where the error stays below.
+
+    bound: 1/|T| of the loop round the model, None where there is no stable one.
+    """
+    traces = [palette.line(omega, error, "|G − Gr|/|Gr|", palette.Y, hovertemplate="%{y:.4g}")]
+    if bound is not None:
+        traces.append(palette.line(omega, bound, "1/|T|", palette.S, "dash", hovertemplate="%{y:.4g}"))
+    return palette.figure(
+        traces,
+        palette.log_axis(palette.FREQUENCY, hoverformat=".4g"),
+        palette.log_axis("relative error  [–]", range=_logs(DEEP, 100.0)),
+        height,
+    )
+
+
+def _magnitude(omega: np.ndarray, F: np.ndarray, name: str, color: str, dash: str, width: float) -> Trace:
+    return palette.line(omega, np.abs(F), name, color, dash, width, hovertemplate="%{y:.4g}")
+
+
+def _peak(omega: float, height: float, symbol: str, color: str, position: str) -> list[Trace]:
+    if not (math.isfinite(height) and 0 < omega < math.inf):
+        return []
+    hover = f"{symbol} = {height:.4g} at ω = {omega:.4g}<extra></extra>"
+    return [palette.marker(omega, height, f"{symbol} {height:.3g}", color, symbol, position, hovertemplate=hover)]
+
+
+def _bode(name: str, curve: BodeCurve, color: str, dash: str, width: float) -> tuple[Trace, Trace]:
+    gain = palette.line(curve.omega, curve.magnitude, name, color, dash, width, hovertemplate="%{y:.4g}")
+    phase = palette.line(curve.omega, curve.phase_deg, name, color, dash, width, hovertemplate="%{y:.4g}°")
+    return gain, phase | {"yaxis": "y2", "showlegend": False}
+
+
+def _bode_layout(traces: list[Trace], gain: str, phase: str, curve: BodeCurve, height: int | None) -> Figure:
+    finite = curve.magnitude[np.isfinite(curve.magnitude) & (curve.magnitude > 0)]
+    span = _logs(max(finite.min(initial=1.0), GAIN_VIEW[0] * min(1.0, finite.max())) / 2, min(finite.max(), 1e6) * 2)
+    highest, lowest = float(curve.phase_deg.max()), max(float(curve.phase_deg.min()), PHASE_VIEW)
+    return palette.figure(
+        traces,
+        palette.log_axis(
+            palette.FREQUENCY, hoverformat=".4g", range=_logs(curve.omega[0], curve.omega[-1]), anchor="y2"
+        ),
+        palette.log_axis(gain, domain=[0.54, 1], range=span),
+        height,
+        yaxis2=palette.axis(phase, domain=[0, 0.47], range=[lowest - 15, max(highest, lowest + 45) + 15], dtick=90),
+    )
+
+
+def _gain_margins(margins: Margins, curve: BodeCurve) -> list[Trace]:
+    """A stroke from |L| = 1/GM up (or down) to 1 at the crossing of -180 degrees."""
+    strokes = []
+    if math.isfinite(margins.GM):
+        strokes.append(_stroke(margins.omega_180, 1 / margins.GM, 1.0, f"GM {margins.GM:.3g}", "y"))
+    if margins.GM_lower > 0:
+        # where |L| = 1/GM_lower with the phase at an odd multiple of 180 degrees
+        below = np.abs(np.log(curve.magnitude * margins.GM_lower)) + np.abs((curve.phase_deg / 180) % 2 - 1)
+        omega = float(curve.omega[np.argmin(below)])
+        strokes.append(_stroke(omega, 1 / margins.GM_lower, 1.0, f"GM lower {margins.GM_lower:.3g}", "y"))
+    return strokes
+
+
+def _phase_margin(margins: Margins) -> list[Trace]:
+    if not math.isfinite(margins.PM_deg):
+        return []
+    return [_stroke(margins.omega_c, margins.PM_deg - 180, -180.0, f"PM {margins.PM_deg:.3g}°", "y2")]
+
+
+def _delay_margin(margins: Margins) -> list[Trace]:
+    """The crossing the delay margin belongs to, |L| = 1."""
+    if not math.isfinite(margins.delay_margin):
+        return []
+    label = f"delay margin {margins.delay_margin:.3g}"
+    return [
+        palette.marker(margins.omega_c, 1.0, label, palette.U, "delay margin", "top right")
+        | {"hovertemplate": f"{label}<extra></extra>"}
+    ]
+
+
+def _stroke(omega: float, start: float, end: float, label: str, axis: str) -> Trace:
+    return palette.line([omega, omega], [start, end], label, palette.U, "solid", 2.5) | {
+        "mode": "lines+markers+text",
+        "text": [label, ""],
+        "textposition": "middle right",
+        "marker": {"color": palette.U, "size": 6},
+        "hovertemplate": f"{label} at ω = {omega:.4g}<extra></extra>",
+        "showlegend": False,
+        "yaxis": axis,
+    }
+
+
+def _at_one() -> dict:
+    stroke = {"color": palette.NEUTRAL, "width": 1, "dash": "dot"}
+    return {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": 1, "y1": 1, "line": stroke}
+
+
+def _logs(low: float, high: float) -> list[float]:
+    return [math.log10(low), math.log10(high)]

@@ -1,0 +1,66 @@
+"""Time responses: y and u of a loop, step response of plants.
+
+Curves come as pairs (name, record); the first is the present design, the others are pinned ones.
+A record holds both limits where a signal jumps, and so does the picture: a vertical stroke.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from simc_core.plant_step import PlantStep
+from simc_core.simulation import TimeResponse
+
+from simc_core.figures import palette
+from simc_core.figures.palette import Figure, Trace
+
+Curves = Sequence[tuple[str, TimeResponse]]
+FAR = 10.0  # a response that leaves this many steps is growing: the view stays where the eye can read
+VIEW = (-4.0, 6.0)
+
+
+def output_figure(curves: Curves, height: int | None = None, stable: bool = True) -> Figure:
+    """y(t) and the set point r(t), grey and dashed. stable=False: the figure says that the loop is not."""
+    present = curves[0][1]
+    traces = [
+        palette.line(present.t, present.r, "r", palette.R, "dash", 1.4, hovertemplate="%{y:.4g}"),
+        *_signals(curves, "y", palette.Y),
+    ]
+    return _figure(traces, "y  [unit of y]", height, stable)
+
+
+def input_figure(curves: Curves, height: int | None = None, stable: bool = True) -> Figure:
+    """u(t), the controller output, with its jumps. stable=False: the figure says that the loop is not."""
+    return _figure(_signals(curves, "u", palette.U), "u  [unit of u]", height, stable)
+
+
+def plant_step_figure(step: PlantStep, model: PlantStep | None = None, height: int | None = None) -> Figure:
+    """Open-loop response to a unit step of u: the full plant, and its reduced model where there is one."""
+    found = [("G", step)] if model is None else [("G", step), ("model", model)]
+    traces = [
+        palette.line(record.t, record.y, name, *style, hovertemplate="%{y:.4g}")
+        for (name, record), style in zip(found, palette.FULL_AND_REDUCED, strict=False)
+    ]
+    return _figure(traces, "y  [unit of y]", height, stable=True)
+
+
+def _signals(curves: Curves, field: str, color: str) -> list[Trace]:
+    traces = [
+        palette.line(
+            record.t, getattr(record, field), name, *palette.shade(color, position), hovertemplate="%{y:.4g}"
+        )
+        for position, (name, record) in enumerate(curves)
+    ]
+    return traces[1:] + traces[:1]  # the present design on top of the pinned ones
+
+
+def _figure(traces: list[Trace], title: str, height: int | None, stable: bool) -> Figure:
+    view = {}
+    if not stable and any(np.nanmax(np.abs(trace["y"])) > FAR for trace in traces):
+        view = {"range": list(VIEW)}
+    return palette.figure(
+        traces,
+        palette.axis(palette.TIME, hoverformat=".4g"),
+        palette.axis(title, **view),
+        height,
+        annotations=[] if stable else [palette.note("Loop not stable: the response grows")],
+    )
