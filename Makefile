@@ -25,7 +25,7 @@ bench-ui: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m benchmarks.ui
 
 screenshots: $(VENV)/dev.stamp chromium
-	$(BIN)/python -m tests.browser.screenshots
+	$(BIN)/python -m tests.browser.readme_picture
 
 clean:
 	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis

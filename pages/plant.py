@@ -7,7 +7,7 @@ from pages.common.plant_entry import plant_entry
 from pages.common.plant_view import facts, figures
 
 header.show("plant")
-entry, view = st.columns([1, 2], gap="medium")
+entry, view = st.columns([5, 8], gap="medium")
 with entry:
     plant = plant_entry()
     facts(plant)

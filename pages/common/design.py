@@ -85,7 +85,7 @@ class Design:
     """Everything a link or a project file holds. pins: tunings set aside to compare with the present one."""
 
     plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
-    tuning: Tuning = Tuning()
+    tuning: Tuning = field(default_factory=Tuning)
     form: str = "series"
     pins: tuple[Tuning, ...] = ()
     cascade: Cascade = field(default_factory=Cascade)

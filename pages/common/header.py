@@ -17,10 +17,9 @@ TITLES = {
 # Less air round the page than Streamlit leaves: an instrument shows its dials. The line stays one line where it fits.
 STYLE = """<style>
 [data-testid="stMainBlockContainer"] {padding: 3rem 2rem 2rem}
-@media (max-width: 640px) {[data-testid="stMainBlockContainer"] {padding: 3rem 0.75rem 2rem}}
+@media (max-width: 640px) {[data-testid="stMainBlockContainer"] {padding: 4rem 0.75rem 2rem}}
 .st-key-line {border-bottom: 1px solid var(--st-border-color); padding-bottom: 0.4rem}
 .st-key-line .katex {font-size: 1.15em}
-[data-testid="stMain"] .st-key-line [data-testid="stMarkdownContainer"] p {margin: 0}
 </style>"""
 CHAIN = ("plant", "half_rule", "tuning", "cascade")
 
@@ -42,7 +41,8 @@ def show(place: str) -> Design:
         plant = design.plant
         st.markdown(f"$G(s) = {latex(plant)}$", width="content")
         st.caption(f"{plant.kind}, $\\theta$ = {plant.theta:g}", width="content")
-        chain(place)
+        if place in CHAIN:
+            chain(place)
     _notices()
     with st.sidebar:
         _take_along()

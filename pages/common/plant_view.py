@@ -1,13 +1,15 @@
 """What a plant is: facts in words and numbers, and its pictures."""
 
 import streamlit as st
-from simc_core.plant_step import plant_step
 
 from simc_core import Plant
+from simc_core.figures import bode_figure, config, plant_step_figure, pole_zero_figure
 from simc_core.notation import latex, latex_number
+from simc_core.plant_step import plant_step
 
 GAINS = ("k", "k'", "k''", "k'''", "k''''")
 SHOWN_ROOTS = 12
+HEIGHT, TALL = 280, 360  # px
 
 
 def facts(plant: Plant) -> None:
@@ -26,9 +28,13 @@ def facts(plant: Plant) -> None:
 def figures(plant: Plant) -> None:
     """Step response, pole-zero map and Bode diagram."""
     left, right = st.columns([3, 2])
-    left.plotly_chart(plant_step_figure(plant_step(plant)), key="plant_step")
-    right.plotly_chart(pole_zero_figure(plant), key="plant_map")
-    st.plotly_chart(bode_figure(plant), key="plant_bode")
+    for place, title, figure in (
+        (left, "Step response", plant_step_figure(plant_step(plant), height=HEIGHT)),
+        (right, "Poles and zeros", pole_zero_figure(plant, HEIGHT)),
+        (st, "Bode diagram", bode_figure(plant, height=TALL)),
+    ):
+        place.markdown(f"**{title}**")
+        place.plotly_chart(figure, key=f"plant {title}", config=config(title))
 
 
 def _roots(roots) -> str:

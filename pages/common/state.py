@@ -55,7 +55,7 @@ def cascade() -> Cascade:
 
 
 def change(**values) -> None:
-    """Change fields by their names in links.py: plant, order, h, tau_c, b, filter, rules, form, pins, Ga, Gb, method, ...
+    """Change fields by their names in links.py: plant, order, tau_c, b, form, pins, Ga, Gb, method, and the others.
 
     Raises InvalidParameter and then changes nothing.
     """

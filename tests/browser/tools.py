@@ -14,6 +14,16 @@ ROOT = Path(__file__).parents[2]
 PICTURES = Path(__file__).parent / "screenshots"
 WIDTHS = {1280: 900, 390: 844}
 THEMES = ("light", "dark")
+ARGS = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
+]
 IDLE = "[data-testid=stApp][data-test-script-state=notRunning]"
 # On a deep link Streamlit first looks for itself below the page's own path, and finds itself one level up.
 PROBE = re.compile(r"/\w+/_stcore/(health|host-config)$")

@@ -1,0 +1,122 @@
+"""The main job, as an engineer does it: type a plant, reduce it, move tau_c, read Ms, hand the link on."""
+
+import re
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.browser.tools import THEMES, WIDTHS, fits, idle, picture
+
+EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1: PI Kc 0.57, tau_I 8
+PLACES = ("home", "plant", "half_rule", "tuning", "cascade", "accuracy")
+TRACEBACK = "[data-testid=stException]"
+
+
+def follow(page: Page, name: str) -> None:
+    """Click a link of the chain on top."""
+    page.locator(".st-key-chain").get_by_role("link", name=name).click()
+    page.wait_for_url(re.compile(name.lower().replace(" ", "_")))
+    idle(page)
+
+
+def type_plant(page: Page, text: str) -> None:
+    field = page.get_by_label("Transfer function")
+    field.fill(text)
+    field.press("Enter")
+    idle(page)
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_a_deep_link_may_be_the_first_request_of_a_fresh_server(place, fresh_server, open_page):
+    page = open_page(f"{fresh_server()}/{place}?plant=2 exp(-s)/(10s+1)&order=1&tau_c=3")
+    expect(page.locator(".st-key-line .katex").first).to_contain_text("10s")
+    expect(page.get_by_test_id("stSidebarNav")).to_contain_text("Half rule")
+    assert page.locator(TRACEBACK).count() == 0
+    assert "tau_c=3" in page.url
+
+
+def test_from_a_typed_plant_to_a_link_that_opens_the_same_design(server, fresh_server, open_page):
+    page = open_page(f"{server}/plant")
+    type_plant(page, EXAMPLE)
+    expect(page.get_by_text("Stable, balanced")).to_be_visible()
+    follow(page, "Half rule")
+    expect(page.get_by_test_id("stMain")).to_contain_text(re.compile("tau1|τ1|τ_1"))
+    follow(page, "Tuning")
+    expect(page.get_by_test_id("stMain")).to_contain_text("0.5714")
+    before = page.url
+    page.get_by_role("slider").first.press("ArrowRight")
+    page.wait_for_url(lambda url: url != before)
+    idle(page)
+    tau_c = re.search("tau_c=([^&]+)", page.url).group(1)
+    expect(page.get_by_test_id("stMain")).to_contain_text("Ms")
+    link = page.get_by_test_id("stSidebar").locator("code").inner_text()
+    again = open_page(re.sub(r"^http://[^/]+", fresh_server(), link))
+    assert f"tau_c={tau_c}" in again.url
+    assert (
+        again.locator(".st-key-line .katex").first.inner_text()
+        == page.locator(".st-key-line .katex").first.inner_text()
+    )
+    assert main_numbers(again) == main_numbers(page)
+
+
+def main_numbers(page: Page) -> list[str]:
+    """Every number the main area shows as text."""
+    return re.findall(r"\d+\.\d+", page.get_by_test_id("stMain").inner_text())
+
+
+@pytest.mark.parametrize("theme", THEMES)
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("place", PLACES)
+def test_every_page_fits_both_widths_in_both_themes(place, width, theme, server, open_page):
+    page = open_page(f"{server}/{place}", width, theme)
+    expect(page.get_by_test_id("stMain")).to_be_visible()
+    assert page.locator(TRACEBACK).count() == 0
+    picture(page, place)
+    assert fits(page)
+
+
+def test_what_cannot_be_read_is_said_beside_the_field_and_the_last_plant_stays(server, open_page):
+    page = open_page(f"{server}/plant")
+    type_plant(page, "2/(5s+1)")
+    type_plant(page, "2/(5s+")
+    expect(page.get_by_test_id("stAlert")).to_be_visible()
+    assert page.get_by_label("Transfer function").input_value() == "2/(5s+"
+    expect(page.locator(".st-key-line .katex").first).to_contain_text("5s+1")
+    picture(page, "plant-error")
+
+
+def test_the_table_edits_the_plant(server, open_page):
+    page = open_page(f"{server}/plant?plant=2/(5s%2B1)")
+    page.get_by_role("button", name="Factors").or_(page.get_by_role("radio", name="Factors")).first.click()
+    idle(page)
+    gain = page.get_by_label("Gain k")
+    gain.fill("3")
+    gain.press("Enter")
+    idle(page)
+    expect(page.locator(".st-key-line .katex").first).to_contain_text("3")
+    picture(page, "plant-factors")
+    page.get_by_role("radio", name="Polynomials").or_(page.get_by_role("button", name="Polynomials")).first.click()
+    idle(page)
+    assert page.get_by_label("Denominator").input_value() == "5 1"
+    assert page.get_by_label("Numerator").input_value() == "3"
+
+
+def test_a_link_with_nonsense_says_what_was_ignored(server, open_page):
+    page = open_page(f"{server}/tuning?plant=2/(5s%2B1)&tau_c=-3&colour=red")
+    alert = page.get_by_test_id("stAlert").first
+    expect(alert).to_contain_text("tau_c = -3")
+    expect(alert).to_contain_text("colour = red")
+    page.get_by_role("button", name="Dismiss").click()
+    idle(page)
+    expect(page.get_by_text("colour = red")).to_have_count(0)
+
+
+def test_the_back_button_brings_the_former_design_back(server, open_page):
+    page = open_page(f"{server}/plant?plant=2/(5s%2B1)")
+    type_plant(page, "7/(9s+1)")
+    expect(page.locator(".st-key-line .katex").first).to_contain_text("9s")
+    follow(page, "Half rule")
+    page.go_back()
+    idle(page)
+    expect(page.locator(".st-key-line .katex").first).to_contain_text("9s")
+    assert "/plant" in page.url

@@ -1,0 +1,117 @@
+"""Home and plant page: what Python does, without a browser."""
+
+import base64
+import json
+
+import numpy as np
+import pytest
+from simc_core.examples import EXAMPLES
+
+from tests.pages.tools import address, run_app, run_page, texts
+
+PLACES = ("home", "plant", "half_rule", "tuning", "cascade", "accuracy")
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_every_page_runs_alone_and_keeps_the_link(place):
+    app = run_page(place, plant="2 exp(-s)/(10 s + 1)", tau_c="3")
+    assert address(app)["tau_c"] == "3"
+    assert "10 s + 1" in texts(app)
+
+
+def test_home_offers_every_example_and_takes_one():
+    app = run_app()
+    assert len([button for button in app.button if button.key.startswith("example_")]) == len(EXAMPLES)
+    app.button[0].click().run()
+    assert not app.exception
+    assert "plant" in address(app)
+
+
+def test_the_chain_is_there_to_click_and_marks_the_present_place():
+    app = run_app()
+    app.switch_page("../half_rule.py").run()
+    assert "**:blue[Half rule]**" in texts(app)
+
+
+def test_text_entry_changes_plant_figures_and_address():
+    app = run_page("plant")
+    app.text_input("plant_text_text").set_value("3 e^{-0,5s}/(4s+1)").run()
+    assert not app.error
+    assert address(app)["plant"] == "3 exp(-0.5 s)/(4 s + 1)"
+    step = json.loads(app.get("plotly_chart")[0].proto.spec)["data"][0]
+    y = np.array(step["y"]) if isinstance(step["y"], list) else decoded(step["y"])
+    assert y[-1] == pytest.approx(3.0, rel=0.02)
+
+
+def decoded(array: dict) -> np.ndarray:
+    """A typed array of plotly's JSON."""
+    return np.frombuffer(base64.b64decode(array["bdata"]), array["dtype"])
+
+
+def test_text_that_is_no_plant_stays_and_so_does_the_last_good_plant():
+    app = run_page("plant")
+    app.text_input("plant_text_text").set_value("3/(4s+1)").run()
+    app.text_input("plant_text_text").set_value("3/(4s+").run()
+    assert app.text_input("plant_text_text").value == "3/(4s+"
+    assert len(app.error) == 1
+    assert "^" in app.error[0].value
+    assert address(app)["plant"] == "3/(4 s + 1)"
+    app.text_input("plant_text_text").set_value("3/(4s+2)").run()
+    assert not app.error
+    assert address(app)["plant"] == "1.5/(2 s + 1)"
+
+
+@pytest.mark.parametrize(
+    "text", ["", "s", "0/(s+1)", "1/(s+1)" * 500, "exp(2s)/(s+1)", "1e300/(s+1)", "1/(s+1)^200", "__import__('os')"]
+)
+def test_hostile_text_gives_a_message_and_no_traceback(text):
+    app = run_page("plant")
+    app.text_input("plant_text_text").set_value(text).run()
+    assert not app.exception
+    assert app.error
+
+
+def test_ways_of_entry_describe_one_plant():
+    app = run_page("plant", plant="2 exp(-0.5 s)/((3 s + 1) (4 s + 1))")
+    app.get("button_group")[0].set_value(["Polynomials"]).run()
+    assert app.text_input("plant_polynomials_den").value == "12 7 1"
+    assert app.text_input("plant_polynomials_num").value == "2"
+    app.text_input("plant_polynomials_num").set_value("4").run()
+    assert not app.error
+    assert address(app)["plant"].startswith("4 exp(-0.5 s)")
+    app.number_input("plant_polynomials_theta").set_value(-1.0).run()
+    assert "theta must be >= 0, got -1" in app.error[0].value
+    assert address(app)["plant"].startswith("4 exp(-0.5 s)")
+    app.get("button_group")[0].set_value(["Factors"]).run()
+    app.number_input("plant_factors_k").set_value(0.0).run()
+    assert "k must not be zero" in app.error[0].value
+    app.number_input("plant_factors_k").set_value(5.0).run()
+    assert not app.error
+    assert address(app)["plant"].startswith("5 exp(-0.5 s)")
+
+
+def test_examples_can_be_chosen():
+    app = run_page("plant")
+    app.get("button_group")[0].set_value(["Examples"]).run()
+    app.selectbox("plant_example").select(EXAMPLES[-1].name).run()
+    assert not app.exception
+    assert app.selectbox("plant_example").value == EXAMPLES[-1].name
+
+
+def test_nonsense_in_a_link_is_named_and_the_rest_taken():
+    app = run_page("tuning", plant="2/(5s+1)", tau_c="soon", colour="red", order="2")
+    shown = app.warning[0].value
+    assert "`tau_c = soon` was ignored: a number was expected" in shown
+    assert "`colour = red` was ignored" in shown
+    assert address(app) == {"plant": "2/(5 s + 1)", "order": "2"}
+    next(button for button in app.button if button.label == "Dismiss").click().run()
+    assert "colour" not in texts(app)
+
+
+def test_state_survives_the_way_through_the_pages():
+    app = run_app(plant="2 exp(-s)/(10 s + 1)", tau_c="3", b="0.5")
+    for name in PLACES[1:]:
+        app.query_params.clear()  # as the navigation does
+        app.switch_page(f"../{name}.py").run()
+        assert not app.exception
+        assert address(app) == {"plant": "2 exp(-s)/(10 s + 1)", "order": "1", "tau_c": "3", "b": "0.5"}

@@ -1,0 +1,35 @@
+"""Running the app and single pages without a browser."""
+
+from pathlib import Path
+
+from streamlit.testing.v1 import AppTest
+
+ROOT = Path(__file__).parents[2]
+
+
+def run_app(**parameters: str) -> AppTest:
+    """The whole app, from its router, with query parameters."""
+    return _run(ROOT / "pages" / "common" / "router.py", parameters)
+
+
+def run_page(name: str, **parameters: str) -> AppTest:
+    """One page alone, without the router."""
+    return _run(ROOT / "pages" / f"{name}.py", parameters)
+
+
+def _run(script: Path, parameters: dict[str, str]) -> AppTest:
+    app = AppTest.from_file(str(script), default_timeout=30)
+    app.query_params.update(parameters)
+    app.run()
+    assert not app.exception, app.exception
+    return app
+
+
+def address(app: AppTest) -> dict[str, str]:
+    """The query parameters, each with its one value."""
+    return {name: value[0] if isinstance(value, list) else value for name, value in app.query_params.items()}
+
+
+def texts(app: AppTest) -> str:
+    """All markdown, captions, warnings and errors, one after the other."""
+    return "\n".join(item.value for kind in ("markdown", "caption", "warning", "error") for item in app.get(kind))
