@@ -11,4 +11,7 @@ from simc_core.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
+from simc_core.parse import parse_plant
 from simc_core.plant import Plant
+from simc_core.reduction import Candidate, Reduction, Share, Step
+from simc_core.simc import simc, tau_c_presets

@@ -1,10 +1,12 @@
 """Numbers, plants, models and controllers as LaTeX and as plain text.
 
-`plain` of a plant reads back through parse_plant: gain, dead time, lags, numerator time constants and
-integrators to the last bit, complex pairs to rounding.
+`plain` of a plant reads back through parse_plant to the last bit. (A pair with |zeta| >= 1 comes back as the two
+real time constants that it is.)
 """
 
 import math
+from decimal import Decimal  # 28 digits by default, enough for any zeta
+from fractions import Fraction
 from itertools import groupby
 
 from simc_core.controllers import Controller, IController, IdealPid, ParallelPid, SeriesPid
@@ -76,6 +78,9 @@ class _Latex:
     def number(self, value: float) -> str:
         return latex_number(value, self.digits)
 
+    def middle(self, tau: float, zeta: float) -> str:
+        return self.number(2 * zeta * tau)
+
     def power(self, base: str, exponent: int) -> str:
         return base if exponent == 1 else f"{base}^{{{exponent}}}"
 
@@ -92,6 +97,16 @@ class _Plain:
     def number(self, value: float) -> str:
         text = repr(value)
         return text.removesuffix(".0")
+
+    def middle(self, tau: float, zeta: float) -> str:
+        """2 zeta tau with as many digits as it takes to get zeta back; 17 are not always enough."""
+        double = 2 * Fraction(tau)
+        text = self.number(2 * zeta * tau)
+        digits = 17
+        while float(Fraction(text) / double) != zeta:
+            text = f"{Decimal(zeta) * Decimal(2 * tau):.{digits}g}"
+            digits += 1
+        return text
 
     def power(self, base: str, exponent: int) -> str:
         return base if exponent == 1 else f"{base}^{exponent}"
@@ -132,11 +147,11 @@ def _first_order(tau: float, show: _Latex | _Plain) -> str:
 
 def _second_order(pair: tuple[float, float], show: _Latex | _Plain) -> str:
     tau, zeta = pair
-    square, middle = show.number(tau * tau), 2 * zeta * tau
+    square = show.number(tau * tau)
     first = "s^2" if square == "1" else f"{square} s^2"
-    if middle == 0:
+    if zeta == 0:
         return f"({first} + 1)"
-    return f"({first} {'+' if middle > 0 else '-'} {_times_s(show.number(abs(middle)))} + 1)"
+    return f"({first} {'+' if zeta > 0 else '-'} {_times_s(show.middle(tau, abs(zeta)))} + 1)"
 
 
 def _latex_controller(controller: Controller, digits: int) -> str:

@@ -13,9 +13,10 @@ ORDER = [
     {"checks"},
     {"factors", "polynomials"},
     {"plant", "models", "controllers"},
-    {"parse", "notation", "plant_step", "reduction", "zeros", "dynamics", "simc", "loop"},
+    {"exact", "parse", "notation", "plant_step", "simc", "loop"},
+    {"reduction", "dynamics", "zeros", "zeros_1998", "split", "story", "advice"},
     {"stability", "poles", "margins"},
-    {"reduction_story", "half_rule", "simulation"},  # the half rule judges its candidates by their Ms
+    {"half_rule", "simulation"},  # the half rule judges its candidates by their Ms
     {"performance"},
     {"sweep", "cascade", "direct_synthesis"},
     {"examples"},

@@ -1,0 +1,149 @@
+"""Plants from the literature, each with its source, and the ten cascade pairs of [PSB].
+
+[SK98] Skogestad 1998; [SK03] Skogestad, J. Process Control 13 (2003) 291; [V06] Viteckova 2006;
+[PSB] Prelic, Sekara, Boskovic; [SG12] Skogestad and Grimholt 2012.
+"""
+
+from dataclasses import dataclass
+
+from simc_core.plant import Plant
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A named plant. note: what it is there to show."""
+
+    key: str
+    name: str
+    plant: Plant
+    source: str
+    note: str
+
+
+@dataclass(frozen=True, slots=True)
+class CascadeExample:
+    """A pair of processes in cascade: primary Ga, secondary Gb."""
+
+    key: str
+    name: str
+    primary: Plant
+    secondary: Plant
+    source: str
+
+
+SK03 = "[SK03] Table 4"
+
+EXAMPLES = (
+    Example(
+        "V06-1",
+        "V06 example 1",
+        Plant(1.0, 3.0, (6.0, 4.0, 2.0)),
+        "[V06] example 1",
+        "Three lags and a dead time: the half rule at its plainest.",
+    ),
+    Example(
+        "V06-2",
+        "V06 example 2",
+        Plant(1.0, 0.0, (10.0, 6.0, 1.0), (-2.0,)),
+        "[V06] example 2",
+        "An inverse response acts like dead time.",
+    ),
+    Example(
+        "SK98-1",
+        "SK98 example 1",
+        Plant(1.0, 0.0, (20.0, 10.0, 4.0, 2.0, 0.5, 0.5, 0.5), (-3.0, 0.8)),
+        "[SK98] example 1",
+        "Seven lags and two zeros. tau_D = 7.7 is printed; it is 12.",
+    ),
+    Example(
+        "SK98-2",
+        "SK98 example 2 (unstable)",
+        Plant(1.0, 0.0, (20.0, -10.0, 2.0, 0.5, 0.5, 0.5), (8.0,)),
+        "[SK98] example 2",
+        "One unstable pole; published with the rules of 1998 and order 2: tau2 13, theta 2.5.",
+    ),
+    Example(
+        "E1",
+        "SK03 E1",
+        Plant(1.0, 0.0, (1.0, 0.2)),
+        SK03,
+        "Two lags and no dead time: order 2 leaves theta = 0, so that tau_c is yours.",
+    ),
+    Example(
+        "E2",
+        "SK03 E2",
+        Plant(1.0, 0.0, (2.0, 1.0, 0.4, 0.2, 0.05, 0.05, 0.05), (-0.3, 0.08)),
+        SK03,
+        "Rule T3, and a ratio of exactly 1.6 that doubles get wrong.",
+    ),
+    Example(
+        "E4", "SK03 E4", Plant(1.0, 0.0, (1.0, 1.0, 1.0, 1.0)), SK03, "Four equal lags: tau1 and tau2 change places."
+    ),
+    Example(
+        "E6",
+        "SK03 E6",
+        Plant(1.0, 0.0, (1.0, 1.0, 0.028), (0.17, 0.17), 1),
+        SK03,
+        "An integrator and two zeros, several self-consistent delays. Printed for PI: theta 1.69, all lags whole.",
+    ),
+    Example("E7", "SK03 E7", Plant(1.0, 0.0, (1.0, 1.0, 1.0), (-2.0,)), SK03, "A large inverse response."),
+    Example("E9", "SK03 E9", Plant(1.0, 1.0, (1.0, 1.0)), SK03, "Two equal lags and as much dead time."),
+    Example(
+        "E12",
+        "SK03 E12",
+        Plant(1.0, 0.3, (10.0, 8.0, 1.0), (6.0, 3.0)),
+        SK03,
+        "Rule T2 twice; theta = 0.3 and 0.8 are both self-consistent.",
+    ),
+    Example(
+        "lag",
+        "FOPDT, lag dominant",
+        Plant(1.0, 1.0, (8.0,)),
+        "[SG12] Table 5.3",
+        "tau_I = 8 theta = tau1: both bounds meet.",
+    ),
+    Example("delay", "FOPDT, delay dominant", Plant(1.0, 1.0, (0.1,)), "[SG12]", "Almost pure dead time."),
+    Example("integrating", "Integrating", Plant(1.0, 1.0, integrators=1), "[SK03] Table 3, case 2", "A slow level."),
+    Example(
+        "double",
+        "Double integrating",
+        Plant(1.0, 1.0, integrators=2),
+        "[SK03] Table 3, case 4",
+        "Needs derivative action.",
+    ),
+    Example("dead-time", "Pure dead time", Plant(1.0, 1.0), "[SK03] Table 3, case 1", "Integral action alone."),
+    Example(
+        "oscillating",
+        "Oscillating",
+        Plant(1.0, 1.0, lag_pairs=((4.0, 0.3),)),
+        "[SK98], rule for zeta < 1",
+        "Set-point steps are smooth, input disturbances keep ringing.",
+    ),
+    Example(
+        "unstable",
+        "Unstable",
+        Plant(-1.0, 1.0, (-10.0,)),
+        "[SK98] eq. 23-24",
+        "e^{-s}/(10 s - 1), a theta = 0.1: the published Ms is 2.06.",
+    ),
+)
+
+PSB = "[PSB] Table 1"
+
+
+def _pair(number: int, primary: Plant, secondary: Plant) -> CascadeExample:
+    return CascadeExample(f"PSB-{number}", f"Pair {number}", primary, secondary, PSB)
+
+
+CASCADE_EXAMPLES = (
+    _pair(1, Plant(2.0, 2.0, (5.0,)), Plant(1.0, 1.0, (2.0, 3.0))),
+    _pair(2, Plant(1.0, 1.0, (1.0, 1.0)), Plant(1.0, 0.1, (0.1,))),
+    _pair(3, Plant(1.0, 0.25, integrators=1), Plant(1.0, 0.5, (1.0, 2.0))),
+    _pair(4, Plant(2.0, 1.0, (10.0,)), Plant(1.0, 0.5, integrators=1)),
+    _pair(5, Plant(-1.0, 3.0, (-10.0,)), Plant(2.0, 1.0, (1.0,))),
+    _pair(6, Plant(2.0, 2.0, (20.0,)), Plant(-1.0, 1.0, (-20.0,))),
+    _pair(7, Plant(0.5, 0.7, integrators=1), Plant(-2.0, 1.0, (-20.0,))),
+    _pair(8, Plant(-1.0, 4.0, (-20.0,)), Plant(2.0, 2.0, integrators=1)),
+    _pair(9, Plant(-1.0, 4.0, (-20.0,)), Plant(-2.0, 0.1, (-10.0,))),
+    _pair(10, Plant(1.0, 0.7, integrators=2), Plant(1.0, 0.3, (1.0,))),
+)
