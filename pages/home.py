@@ -1,6 +1,7 @@
 """What the program does, the way through it, and plants to begin with."""
 
 import streamlit as st
+from pages.common.plant_view import size
 from simc_core.examples import EXAMPLES
 
 from pages.common import header, state
@@ -20,9 +21,9 @@ header.chain("home", key="way")
 st.subheader("Begin with a plant from the literature")
 for first in range(0, len(EXAMPLES), A_ROW):
     for column, example in zip(st.columns(A_ROW), EXAMPLES[first : first + A_ROW], strict=False):
-        with column.container(border=True, height="stretch"):
-            st.markdown(f"$\\displaystyle {latex(example.plant)}$")
-            st.caption(f"{example.plant.kind} · {example.source}")
-            if st.button(example.name, key=f"example_{first}_{example.name}", width="stretch"):
+        with column.container(border=True, height="stretch", vertical_alignment="distribute"):
+            st.markdown(f"$\\displaystyle {size(example.plant)} {latex(example.plant)}$")
+            st.caption(f"{example.note} {example.source}")
+            if st.button(example.name, key=f"example_{example.key}", width="stretch"):
                 state.change(plant=example.plant)
                 header.go("plant")

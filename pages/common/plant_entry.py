@@ -32,10 +32,10 @@ class _Draft:
     version: int = field(default=0)
 
 
-def plant_entry(name: str = "plant", title: str = "Plant") -> Plant:
+def plant_entry(name: str = "plant", title: str = "plant") -> Plant:
     """Widgets to enter the plant called `name` in links.py (plant, Ga or Gb). Returns the last good one."""
     way = st.segmented_control(
-        f"{title}: enter as", WAYS, default=WAYS[0], required=True, key=f"{name}_way", persist_state="session"
+        f"Enter the {title} as", WAYS, default=WAYS[0], required=True, key=f"{name}_way", persist_state="session"
     )
     {"Text": _text, "Factors": _factors, "Polynomials": _polynomials, "Examples": _examples}[way](name)
     return state.value(name)

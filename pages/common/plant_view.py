@@ -14,7 +14,7 @@ HEIGHT, TALL = 280, 360  # px
 
 def facts(plant: Plant) -> None:
     """G(s) typeset, gain, dead time, poles and zeros."""
-    st.latex(f"G(s) = {latex(plant)}")
+    st.markdown(f"$\\displaystyle {size(plant)} G(s) = {latex(plant)}$")
     symbol = GAINS[plant.integrators]
     lines = [
         f"**{plant.kind.capitalize()}**",
@@ -23,6 +23,11 @@ def facts(plant: Plant) -> None:
         f"zeros {_roots(plant.zeros)}",
     ]
     st.markdown("  \n".join(lines))
+
+
+def size(plant: Plant) -> str:
+    """The LaTeX size at which the fraction of a long plant still fits a column."""
+    return r"\footnotesize" if len(plant.factored.den) > 4 else ""
 
 
 def figures(plant: Plant) -> None:

@@ -73,7 +73,7 @@ def test_hostile_text_gives_a_message_and_no_traceback(text):
 
 def test_ways_of_entry_describe_one_plant():
     app = run_page("plant", plant="2 exp(-0.5 s)/((3 s + 1) (4 s + 1))")
-    app.get("button_group")[0].set_value(["Polynomials"]).run()
+    app.segmented_control("plant_way").set_value("Polynomials").run()
     assert app.text_input("plant_polynomials_den").value == "12 7 1"
     assert app.text_input("plant_polynomials_num").value == "2"
     app.text_input("plant_polynomials_num").set_value("4").run()
@@ -82,7 +82,7 @@ def test_ways_of_entry_describe_one_plant():
     app.number_input("plant_polynomials_theta").set_value(-1.0).run()
     assert "theta must be >= 0, got -1" in app.error[0].value
     assert address(app)["plant"].startswith("4 exp(-0.5 s)")
-    app.get("button_group")[0].set_value(["Factors"]).run()
+    app.segmented_control("plant_way").set_value("Factors").run()
     app.number_input("plant_factors_k").set_value(0.0).run()
     assert "k must not be zero" in app.error[0].value
     app.number_input("plant_factors_k").set_value(5.0).run()
@@ -92,7 +92,7 @@ def test_ways_of_entry_describe_one_plant():
 
 def test_examples_can_be_chosen():
     app = run_page("plant")
-    app.get("button_group")[0].set_value(["Examples"]).run()
+    app.segmented_control("plant_way").set_value("Examples").run()
     app.selectbox("plant_example").select(EXAMPLES[-1].name).run()
     assert not app.exception
     assert app.selectbox("plant_example").value == EXAMPLES[-1].name
