@@ -50,7 +50,7 @@ def latex(item: Plant | Model | Controller, digits: int = DIGITS) -> str:
     delay = show.delay(plant.theta)
     # the unity numerator of 1/(s+1) needs its 1, that of e^{-s}/(s+1) does not
     gain = "" if plant.k == 1 and (top or delay) else "-" if plant.k == -1 and (top or delay) else show.number(plant.k)
-    top = " ".join(part for part in (gain, top, delay) if part)
+    top = " ".join(part for part in (gain, top, delay) if part).replace("- ", "-", 1 if gain == "-" else 0)
     if bottom.startswith("(") and bottom.endswith(")") and bottom.count("(") == 1:
         bottom = bottom[1:-1]
     return rf"\frac{{{top}}}{{{bottom}}}" if bottom else top

@@ -168,6 +168,8 @@ class _Reader:
                     raise self.fault("division by zero", slash.at)
                 value, divided = times(value, inverse(divisor)), slash
             elif self.starts_atom():
+                if self.token.kind == "number":  # 10s 1 is a lost plus, as in a link where + was not written %2B
+                    raise self.fault("a sign is missing before this number: write +, - or *", at)
                 if divided and self.token.kind != "exp":
                     raise self.fault(
                         "after '/' it is not clear how far the denominator goes: write 1/((s+1)(2s+1)) if this belongs "
@@ -232,7 +234,7 @@ class _Reader:
             case "sign" if token.text in CLOSING:
                 self.next -= 1
                 return self.group()
-            case "sign" if token.text == "-":  # 2*-s, e^{-s}*-1
+            case "sign" if token.text == "-" and self.token.text != "-":  # 2*-s, e^{-s}*-1
                 return times(MINUS_ONE, self.power())
             case "sign" if token.text in CLOSING.values():
                 raise self.fault(f"'{token.text}' closes a bracket that was not opened", token.at)

@@ -39,6 +39,8 @@ def simc(model: Model, tau_c: float | None = None) -> SeriesPid | IdealPid | ICo
     Raises InvalidParameter: tau_c <= 0 or not above -theta, tau_c=None for a model without dead time,
     and where the rule of the model ends (a theta >= 0.5, undamped oscillation).
     """
+    if not isinstance(model, Model):
+        raise InvalidParameter(f"model must be a reduced model, as half_rule makes it, got {type(model).__name__}")
     if isinstance(model, UnstableDelay):
         return _unstable(model, tau_c)
     q = _tau_c(model.theta, tau_c) + model.theta
@@ -51,9 +53,8 @@ def simc(model: Model, tau_c: float | None = None) -> SeriesPid | IdealPid | ICo
             return SeriesPid(1 / (k_prime * q), 4 * q, tau2)
         case DoubleIntegratingDelay(k_double_prime, _):
             return SeriesPid(1 / (4 * k_double_prime * q**2), 4 * q, 4 * q)
-        case OscillatingDelay(k, _, tau0, zeta):
-            return _oscillating(k, tau0, zeta, q)
-    raise InvalidParameter(f"model must be one of the reduced models, got {type(model).__name__}")
+        case _:
+            return _oscillating(model, q)
 
 
 def tau_c_presets(model: Model) -> dict[str, float]:
@@ -113,12 +114,13 @@ def _stable(k: float, tau1: float, tau2: float, q: float) -> SeriesPid | IContro
     return SeriesPid(tau1 / (k * q), min(tau1, 4 * q), tau2)
 
 
-def _oscillating(k: float, tau0: float, zeta: float, q: float) -> IdealPid:
-    if zeta == 0:
+def _oscillating(model: OscillatingDelay, q: float) -> IdealPid:
+    if model.zeta == 0:
         raise InvalidParameter(
             "zeta must be > 0 for the SIMC rule, got 0: it cancels the poles, and undamped ones would ring for ever"
         )
-    return IdealPid(2 * zeta * tau0 / (k * q), 2 * zeta * tau0, tau0 / (2 * zeta))
+    twice = 2 * model.zeta
+    return IdealPid(twice * model.tau0 / (model.k * q), twice * model.tau0, model.tau0 / twice)
 
 
 def _unstable(model: UnstableDelay, tau_c: float | None) -> SeriesPid:
