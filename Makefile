@@ -32,9 +32,9 @@ clean:
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV) || { echo "No venv here: apt-get install python3-venv"; exit 1; }
-	$(BIN)/python -m pip install --quiet --upgrade "pip>=25.1"   # the first with --group
 
 $(VENV)/run.stamp: requirements.txt | $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet --upgrade "pip>=25.1"  # the first that knows --group
 	$(BIN)/python -m pip install --quiet -r requirements.txt
 	touch $@
 

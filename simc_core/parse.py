@@ -168,7 +168,8 @@ class _Reader:
                     raise self.fault("division by zero", slash.at)
                 value, divided = times(value, inverse(divisor)), slash
             elif self.starts_atom():
-                if self.token.kind == "number":  # 10s 1 is a lost plus, as in a link where + was not written %2B
+                if self.token.kind == "number" and self.tokens[self.next - 1].kind != "number":
+                    # 10s 1 is 10s+1 that lost its plus, as in a link where + was not written %2B
                     raise self.fault("a sign is missing before this number: write +, - or *", at)
                 if divided and self.token.kind != "exp":
                     raise self.fault(

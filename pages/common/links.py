@@ -55,7 +55,7 @@ def encode(design: Design) -> dict[str, str]:
 
 def query(design: Design) -> str:
     """The query part of an address, escaped."""
-    return urlencode(encode(design), quote_via=quote, safe="()+*^/,~!")
+    return urlencode(encode(design), quote_via=quote, safe="()*^/,~!")
 
 
 def decode(parameters: Mapping[str, str], start: Design) -> tuple[Design, list[Ignored]]:

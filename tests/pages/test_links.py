@@ -73,6 +73,7 @@ def test_the_address_of_the_default_is_short():
         ("order", "1.5", "whole"),
         ("plant", "1/(s+", "1/(s+"),
         ("plant", "s", ""),
+        ("plant", "2/(10s 1)", ""),  # a plus that was not written %2B arrives as a blank
         ("form", "PID", "series, ideal, parallel"),
         ("pins", "1~2", "6 values"),
         ("pins", "!".join(["1~0~2~1~0~2003"] * 5), "at most 4"),
