@@ -78,12 +78,20 @@ def log_leading(term: Factored) -> float:
     return math.log(abs(term.gain)) + _log_sizes(term.num) - _log_sizes(term.den)
 
 
+def sign_leading(term: Factored) -> float:
+    """Sign of that c."""
+    return float(np.prod(np.sign(_leading(term.num))) * np.prod(np.sign(_leading(term.den))) * np.sign(term.gain))
+
+
 def limit_at_infinity(term: Factored) -> float:
     """Limit of F e^{theta s} at infinity, signed; 0 where F is strictly proper."""
-    if term.relative_degree > 0:
-        return 0.0
-    sign = np.prod(np.sign(_leading(term.num))) * np.prod(np.sign(_leading(term.den))) * np.sign(term.gain)
-    return float(sign) * math.exp(log_leading(term))
+    return 0.0 if term.relative_degree > 0 else sign_leading(term) * math.exp(log_leading(term))
+
+
+def limit_at_origin(term: Factored) -> float:
+    """k of F ~ k s^n at the origin, signed."""
+    constants = [c or b for rows in (term.num, term.den) for _, b, c in _rows(rows)]
+    return math.copysign(math.exp(_log_gain(term)), term.gain * math.prod(map(np.sign, constants)))
 
 
 def _rows(array: np.ndarray) -> list[Row]:

@@ -15,6 +15,7 @@ ORDER = [
     {"plant", "models", "controllers"},
     {"exact", "parse", "notation", "plant_step", "simc", "loop"},
     {"reduction", "dynamics", "zeros", "zeros_1998", "split", "story", "advice"},
+    {"characteristic", "winding", "logresponse", "crossings"},
     {"stability", "poles", "margins"},
     {"half_rule", "simulation"},  # the half rule judges its candidates by their Ms
     {"performance"},
