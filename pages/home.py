@@ -1,10 +1,10 @@
 """What the program does, the way through it, and plants to begin with."""
 
 import streamlit as st
-from pages.common.plant_view import size
-from simc_core.examples import EXAMPLES
 
 from pages.common import header, state
+from pages.common.plant_view import size
+from simc_core.examples import EXAMPLES
 from simc_core.notation import latex
 
 A_ROW = 3

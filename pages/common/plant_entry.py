@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 
 import pandas as pd
 import streamlit as st
-from simc_core.examples import EXAMPLES
 
 from pages.common import entries, state
 from simc_core import Plant, parse_plant
 from simc_core.errors import ParseError, SimcError
+from simc_core.examples import EXAMPLES
 from simc_core.notation import plain
 
 WAYS = ("Text", "Factors", "Polynomials", "Examples")
@@ -46,7 +46,6 @@ def _text(name: str) -> None:
     _typed(name, "text", draft, "text", st.text_input)(
         "Transfer function",
         live=PAUSE,
-        max_chars=2000,
         help="As on paper: (1-2s)/((10s+1)(6s+1)(s+1)), exp(-3s)/((6s+1)(4s+1)), 2 e^{-0.5s}/(s(3s+1)^2), "
         "1/(s^2+0.6s+1). A decimal comma is understood.",
     )
@@ -88,9 +87,9 @@ def _factors(name: str) -> None:
         on_change=_take,
         args=(name, "factors"),
         column_config={
-            "factor": st.column_config.SelectboxColumn("Factor", options=entries.FACTORS, width="medium"),
-            "tau": st.column_config.NumberColumn("τ", format=SHOWN, width="small"),
-            "zeta": st.column_config.NumberColumn("ζ", format=SHOWN, width="small"),
+            "factor": st.column_config.SelectboxColumn("Factor", options=entries.FACTORS, width=170),
+            "tau": st.column_config.NumberColumn("τ", format=SHOWN, width=70),
+            "zeta": st.column_config.NumberColumn("ζ", format=SHOWN, width=60),
         },
     )
     st.caption("τ < 0: unstable pole, or a zero in the right half plane. ζ for pairs only.")

@@ -9,6 +9,7 @@ It survives page changes, and every page can be opened first or run alone, since
     state.change(tau_c=7.5)                               from a button's callback, or before st.rerun()
 """
 
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -20,13 +21,14 @@ from pages.common.design import Cascade, Design, Tuning
 from pages.common.links import CASCADE_FIELDS, TUNING_FIELDS, Ignored
 from simc_core import Plant
 
+ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
 OF_DESIGN = ("plant", "form", "pins")
 
 
 def begin() -> Design:
     """Read the address if it is new, then make it show the design. May be called more than once a run."""
     given = st.query_params.to_dict()
-    if given and given != st.session_state.get("address"):
+    if given and given != st.session_state.get("address") and not _late(given):
         design, ignored = links.decode(given, design_now())
         st.session_state["design"] = design
         st.session_state["ignored"] = ignored
@@ -86,13 +88,19 @@ def value(name: str) -> Any:
     return getattr(design.cascade, CASCADE_FIELDS[name])
 
 
-def bound(name: str, show: Callable = lambda value: value, read: Callable = lambda value: value) -> dict[str, Any]:
+def bound(
+    name: str,
+    show: Callable = lambda value: value,
+    read: Callable = lambda value: value,
+    key: str | None = None,
+) -> dict[str, Any]:
     """Keyword arguments that tie a widget to a field: it shows the field and changes it.
 
     show: from the field to what the widget holds; read: back. A widget that gives None (an emptied selection)
     leaves the field as it is. Values a widget can give must be within the field's bounds.
+    key: of the widget, where one field has several.
     """
-    key = f"widget_{name}"
+    key = key or f"widget_{name}"
     set_widget(key, show(value(name)))
     return {"key": key, "on_change": _take, "args": (key, name, read)}
 
@@ -161,8 +169,17 @@ def page(name: str) -> Any | None:
     return st.session_state.get("pages", {}).get(name)
 
 
+def _late(given: dict[str, str]) -> bool:
+    """Whether the browser still showed our former address when it asked, because the new one was on its way."""
+    former, until = st.session_state.get("former_address", ({}, 0.0))
+    return given == former and time.monotonic() < until
+
+
 def _show_in_address() -> None:
     wanted = links.encode(design_now())
     if st.query_params.to_dict() != wanted:
         st.query_params.from_dict(wanted)
-    st.session_state["address"] = wanted
+    shown = st.session_state.get("address")
+    if shown != wanted:
+        st.session_state["former_address"] = (shown, time.monotonic() + ON_ITS_WAY)
+        st.session_state["address"] = wanted

@@ -5,8 +5,8 @@ import json
 
 import numpy as np
 import pytest
-from simc_core.examples import EXAMPLES
 
+from simc_core.examples import EXAMPLES
 from tests.pages.tools import address, run_app, run_page, texts
 
 PLACES = ("home", "plant", "half_rule", "tuning", "cascade", "accuracy")
