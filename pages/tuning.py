@@ -1,5 +1,32 @@
-"""Placeholder."""
+"""One knob, tau_c: the controller it gives, and what that controller does to the full plant."""
 
-from pages.common import header
+import streamlit as st
 
-header.show("tuning")
+from pages.common import guards, header
+from pages.common.design_table import design_table, pin_button, pinned_studies
+from pages.common.panels import open_loop, panels
+from pages.common.readout import readout
+from pages.common.study import study
+from pages.common.tuning_widgets import settings, structure, tau_c_control
+
+design = header.show("tuning")
+with guards.spoken():
+    present = study(design.plant, design.tuning)
+    controls, view = st.columns([1, 3], gap="medium")
+    with controls:
+        tau_c_control(present.model, present.tau_c)
+        structure()
+        settings(present)
+        pin_button(design.tuning, present.tau_c)
+        guards.show(present)
+    with view:
+        studies = [("present", present), *pinned_studies(design.plant, design.pins)]
+        readout(present)
+        responses, bode, table = st.tabs(["Responses", "Bode of L", "Compare"], key="views")
+        with responses:
+            panels(studies)
+        with bode:
+            open_loop(studies)
+        with table:
+            design_table(studies)
+        guards.poles(present)

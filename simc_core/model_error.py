@@ -57,10 +57,9 @@ def model_error(plant: Plant, model: Model, controller: Controller) -> ModelErro
     """Compare `model` with `plant`, for the loop `controller` closes; see the module docstring."""
     t_end = max(step_horizon(plant), step_horizon(model.plant))
     step, model_step = plant_step(plant, t_end), plant_step(model.plant, t_end)
-    difference = np.abs(step.y - model_step.y)
-    latest = int(np.argmax(difference))
+    difference, latest = _largest_difference(plant, model.plant, step, model_step)
     rests = plant.integrators == 0 and plant.unstable_poles == 0
-    fraction = float(difference[latest]) / abs(plant.k) if rests else math.nan
+    fraction = difference / abs(plant.k) if rests else math.nan
     loop = Loop(model.plant, controller)
     omega = omega_grid([plant.factored, model.plant.factored, loop.L])
     Gr = model.plant.response(1j * omega)
@@ -71,6 +70,27 @@ def model_error(plant: Plant, model: Model, controller: Controller) -> ModelErro
         bound, share = 1 / T, error * T
         worst = int(np.argmax(share))
         used, omega_used = float(share[worst]), float(omega[worst])
-    return ModelError(
-        step, model_step, float(difference[latest]), float(step.t[latest]), fraction, omega, error, bound, used, omega_used
-    )
+    return ModelError(step, model_step, difference, latest, fraction, omega, error, bound, used, omega_used)
+
+
+def _largest_difference(plant: Plant, model: Plant, step: PlantStep, model_step: PlantStep) -> tuple[float, float]:
+    """Largest |y - yr| and its time.
+
+    It sits at a dead time, where the difference has a kink or a jump, and is computed there; or between them,
+    where a parabola through three points of the grid finds it.
+    """
+    found = []
+    kinks = [theta for theta in {plant.theta, model.theta} if theta > 0]
+    for theta in kinks:
+        y, yr = plant_step(plant, theta).y[-1], plant_step(model, theta).y[-1]
+        found.append((abs(float(y - yr)), theta))
+    t, difference = step.t, np.abs(step.y - model_step.y)
+    i = int(np.argmax(difference))
+    if 0 < i < len(t) - 1 and not any(t[i - 1] <= theta <= t[i + 1] for theta in kinks):
+        before, at, after = difference[i - 1 : i + 2]
+        bend = before - 2 * at + after
+        shift = 0.5 * (before - after) / bend if bend else 0.0
+        found.append((float(at - 0.25 * (before - after) * shift), float(t[i] + shift * (t[1] - t[0]))))
+    else:
+        found.append((float(difference[i]), float(t[i])))
+    return max(found)

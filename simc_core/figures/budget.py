@@ -61,7 +61,9 @@ def _bars(name: str, shares: tuple[Share, ...], edge: float) -> Trace | None:
         "textposition": "inside",
         "insidetextanchor": "middle",
         "name": words,
-        "marker": {"color": color, "pattern": {"shape": pattern, "size": 6, "solidity": 0.25}},
+        "textangle": 0,
+        "textfont": {"color": "white"},
+        "marker": {"color": color, "pattern": {"shape": pattern, "fillmode": "overlay", "size": 6, "solidity": 0.15}},
         "hovertemplate": "%{text}: %{customdata}<extra></extra>",
     }
 

@@ -31,9 +31,7 @@ def bode_figure(plant: Plant, model: Plant | None = None, height: int | None = N
     return _bode_layout(traces, "|G|  [y/u]", "∠G  [°]", curves[0], height)
 
 
-def open_loop_figure(
-    curves: Sequence[tuple[str, BodeCurve]], margins: Margins, height: int | None = None
-) -> Figure:
+def open_loop_figure(curves: Sequence[tuple[str, BodeCurve]], margins: Margins, height: int | None = None) -> Figure:
     """Bode diagram of L, present design first, with GM (both limits), PM and the delay margin drawn in."""
     traces = [
         trace

@@ -1,7 +1,7 @@
 """Nyquist curve of L, with what the margins mean in it.
 
-    |S| = Ms on the circle of radius 1/Ms round -1: a curve that stays outside has a smaller peak
-    |T| = Mt on the circle of radius Mt/|Mt^2-1| round -Mt^2/(Mt^2-1); Mt = 1: the line Re L = -1/2
+|S| = Ms on the circle of radius 1/Ms round -1: a curve that stays outside has a smaller peak
+|T| = Mt on the circle of radius Mt/|Mt^2-1| round -Mt^2/(Mt^2-1); Mt = 1: the line Re L = -1/2
 """
 
 import math
@@ -14,9 +14,10 @@ from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.loop import FrequencyResponse
 
-REFERENCES = ((1.4, 35.0), (1.6, 80.0), (2.0, 130.0))  # Ms and where its label sits on the circle, degrees
+REFERENCES = ((1.4, 112.0), (1.6, 90.0), (2.0, 68.0))  # Ms, and where the label interrupts its circle, degrees
+LABEL = 0.14  # half length of the interruption, in units of L
 FLAT = 1e-6  # |Mt - 1| below this: the circle is a line to the eye
-VIEW_X, VIEW_Y = (-2.4, 0.9), (-1.75, 0.8)
+VIEW_X, VIEW_Y = (-2.2, 0.7), (-1.4, 0.85)
 FARTHEST_LEFT = -8.0
 
 
@@ -31,7 +32,7 @@ def nyquist_figure(
     traces += reversed([_curve(name, record, position) for position, (name, record) in enumerate(curves)])
     traces.append(
         palette.marker(-1, 0, "−1", palette.NEUTRAL, "critical point", "bottom left", hoverinfo="skip")
-        | {"marker": {"color": palette.ALARM, "size": 10, "symbol": "cross-thin", "line": {"width": 2}}}
+        | {"marker": {"color": palette.ALARM, "size": 10, "symbol": "cross-thin", "line": {"width": 2.5, "color": palette.ALARM}}}
     )
     return palette.figure(
         traces,
@@ -68,16 +69,19 @@ def _curve(name: str, record: FrequencyResponse, position: int) -> Trace:
 
 
 def _reference(Ms: float, angle: float) -> tuple[Trace, Trace]:
-    x, y = circle(-1.0, 1 / Ms)
-    at = math.radians(angle)
+    """The circle of a well-known Ms, interrupted by its label."""
+    radius, middle = 1 / Ms, math.radians(angle)
+    gap = LABEL / radius
+    at = np.linspace(middle + gap, middle + 2 * np.pi - gap, 181)
+    x, y = -1 + radius * np.cos(at), radius * np.sin(at)
     label = {
         "type": "scatter",
         "mode": "text",
-        "x": [-1 + math.cos(at) / Ms],
-        "y": [math.sin(at) / Ms],
+        "x": [-1 + radius * math.cos(middle)],
+        "y": [radius * math.sin(middle)],
         "text": [f"{Ms:.1f}"],
         "textfont": {"size": 11, "color": palette.NEUTRAL},
-        "textposition": "top right" if angle < 90 else "top left",
+        "textposition": "middle center",
         "showlegend": False,
         "hoverinfo": "skip",
     }
@@ -98,7 +102,7 @@ def _mt_circle(Mt: float) -> list[Trace]:
         return []
     x, y = mt_circle(Mt)
     text = f"Mt = {Mt:.4g}"
-    return [palette.line(x, y, text, palette.Y, "longdash", 1.0, hovertemplate=text, meta="Mt circle", opacity=0.7)]
+    return [palette.line(x, y, text, palette.Y, "longdash", 1.4, hovertemplate=text, meta="Mt circle")]
 
 
 def _view(margins: Margins) -> list[float]:

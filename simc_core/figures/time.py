@@ -45,9 +45,7 @@ def plant_step_figure(step: PlantStep, model: PlantStep | None = None, height: i
 
 def _signals(curves: Curves, field: str, color: str) -> list[Trace]:
     traces = [
-        palette.line(
-            record.t, getattr(record, field), name, *palette.shade(color, position), hovertemplate="%{y:.4g}"
-        )
+        palette.line(record.t, getattr(record, field), name, *palette.shade(color, position), hovertemplate="%{y:.4g}")
         for position, (name, record) in enumerate(curves)
     ]
     return traces[1:] + traces[:1]  # the present design on top of the pinned ones

@@ -1,0 +1,64 @@
+"""What must not be overlooked, in words: errors of the core, advice on a design, where the loop's poles lie."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import streamlit as st
+
+from pages.common.study import Study
+from pages.common.symbols import symbols
+from simc_core.advice import advice
+from simc_core.errors import NotReducible, SimcError
+from simc_core.notation import number
+from simc_core.poles import dominant_poles
+
+
+@contextmanager
+def spoken() -> Iterator[None]:
+    """A SimcError raised inside is told in words, in place of the rest of the page."""
+    try:
+        yield
+    except NotReducible as error:
+        st.error(f"**The half rule does not cover this plant.** {symbols(str(error))}")
+    except SimcError as error:
+        st.error(f"**This design is not possible.** {symbols(str(error))}")
+
+
+def show(study: Study) -> None:
+    """Advice on the design: warnings open, notes folded below them."""
+    judged = study.margins
+    if not study.stable:
+        st.error(
+            "**The loop is not stable.** Its limit is the dead time: no margin and no metric means anything here. "
+            "Increase $\\tau_c$."
+        )
+    found = advice(study.model, study.controller, judged.Ms, judged.PM_deg, study.tau_c, study.reduction)
+    for item in found:
+        text = symbols(f"**{item.quantity}**, limit {item.limit}. {item.text} *{item.remedy}*")
+        if item.level == "warning":
+            st.warning(text)
+        else:
+            st.caption(text)
+
+
+def poles(study: Study) -> None:
+    """Dominant closed-loop poles with their damping."""
+    with st.expander("Dominant closed-loop poles"):
+        st.dataframe(
+            [pole_row(pole) for pole in dominant_poles(study.loop) if pole.imag >= 0], hide_index=True, width="content"
+        )
+        st.caption(
+            "Roots of $1 + L(s) = 0$; dead time makes infinitely many, these are the rightmost. "
+            "Damping $\\zeta = -\\mathrm{Re}\\,s/|s|$."
+        )
+
+
+def pole_row(pole: complex) -> dict[str, str]:
+    """A line of the table of poles."""
+    size = abs(pole)
+    return {
+        "pole": number(pole.real) + (f" ± {number(pole.imag)} i" if pole.imag else ""),
+        "damping ζ": number(-pole.real / size) if size else "–",
+        "frequency |s|": number(size),
+        "time constant": number(-1 / pole.real) if pole.real < 0 else "grows",
+    }

@@ -1,0 +1,76 @@
+"""The figures of the tuning page: four panels side by side, on a narrow screen one at a time; Bode beside them."""
+
+import streamlit as st
+
+from pages.common.study import Study, frequency_responses, marks, time_responses
+from simc_core.figures import (
+    Figure,
+    config,
+    input_figure,
+    nyquist_figure,
+    open_loop_figure,
+    output_figure,
+    sensitivity_figure,
+)
+from simc_core.figures.curves import bode_curve
+from simc_core.grid import omega_grid
+
+HEIGHT, TALL = 250, 480  # px
+PANELS = ("y", "u", "Nyquist", "|S| |T|")
+KEYS = ("y", "u", "nyquist", "sensitivity")
+NARROW = "@media (max-width: 640px)"
+
+
+def panels(studies: list[tuple[str, Study]]) -> None:
+    """y, u, Nyquist, |S| and |T| of the present design (first) and the pinned ones."""
+    names, records = [name for name, _ in studies], [each for _, each in studies]
+    present = records[0]
+    times = list(zip(names, time_responses(records), strict=True))
+    frequencies = list(zip(names, frequency_responses(records), strict=True))
+    figures = (
+        output_figure(times, HEIGHT, present.stable),
+        input_figure(times, HEIGHT, present.stable),
+        nyquist_figure(frequencies, present.margins, HEIGHT),
+        sensitivity_figure(frequencies, present.margins, HEIGHT),
+    )
+    chosen = st.segmented_control(
+        "Panel", PANELS, default=PANELS[0], required=True, key="panel", label_visibility="collapsed", width="stretch"
+    )
+    st.html(_style(PANELS.index(chosen)))
+    with st.container(key="panels"):
+        for key, title, figure in zip(KEYS, ALT, figures, strict=True):
+            with st.container(key=f"panel_{key}"):
+                show(figure, key, title)
+
+
+def open_loop(studies: list[tuple[str, Study]]) -> None:
+    """Bode diagram of L with the margins drawn in."""
+    curves = []
+    for name, each in studies:
+        L = each.loop.L
+        curves.append((name, bode_curve(L, omega_grid([L], marks(each.margins)))))
+    show(open_loop_figure(curves, studies[0][1].margins, TALL), "open_loop", "Bode diagram of the open loop L")
+
+
+ALT = (
+    "Output y after a set-point step and a load step",
+    "Controller output u after a set-point step and a load step",
+    "Nyquist curve of L with Ms and Mt circles",
+    "Magnitude of S and T over frequency",
+)
+
+
+def show(figure: Figure, key: str, alt: str) -> None:
+    """A figure with hover, zoom and SVG export."""
+    st.plotly_chart(figure, key=f"figure_{key}", config=config(key), alt=alt)
+
+
+def _style(chosen: int) -> str:
+    """Two by two on a wide screen; on a narrow one the panel chosen alone, and the choice in sight."""
+    hidden = ", ".join(f".st-key-panel_{key}" for i, key in enumerate(KEYS) if i != chosen)
+    return f"""<style>
+.st-key-panels {{display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem 0.75rem}}
+.st-key-panels > * {{min-width: 0}}
+.st-key-panel {{display: none}}
+{NARROW} {{.st-key-panels {{grid-template-columns: 1fr}} .st-key-panel {{display: flex}} {hidden} {{display: none}}}}
+</style>"""

@@ -1,0 +1,109 @@
+"""The strip of figures that decide: Ms first and largest, its band in words and colour."""
+
+import math
+from dataclasses import dataclass
+from html import escape
+
+import streamlit as st
+
+from pages.common.study import Study
+from simc_core.figures import palette
+from simc_core.notation import number
+
+CALM, ATTENTION = 1.6, 2.0  # upper ends of the bands of Ms
+DIGITS = 3
+STYLE = f"""<style>
+.strip {{display: grid; grid-template-columns: 1.5fr repeat(5, 1fr); gap: 1px; font-variant-numeric: tabular-nums;
+  background: var(--st-border-color); border: 1px solid var(--st-border-color); border-radius: 4px; overflow: hidden}}
+.strip > div {{background: var(--st-background-color); padding: 0.3rem 0.6rem; line-height: 1.25; min-width: 0}}
+.strip small {{display: block; font-size: 0.75rem; opacity: 0.75; white-space: nowrap; overflow: hidden;
+  text-overflow: ellipsis}}
+.strip b {{font-size: 1.1rem; font-weight: 600; white-space: nowrap}}
+.strip i {{font-style: normal; font-size: 0.8rem; opacity: 0.75}}
+.strip .first {{grid-row: span 2; border-left: 6px solid var(--band); display: flex; flex-direction: column;
+  justify-content: center}}
+.strip .first b {{font-size: 2rem}}
+.strip .first span {{color: var(--band); font-weight: 600; font-size: 0.85rem}}
+.strip.calm {{--band: {palette.CALM}}} .strip.attention {{--band: {palette.ATTENTION}}}
+.strip.alarm {{--band: {palette.ALARM}}}
+@media (max-width: 640px) {{
+  .strip {{grid-template-columns: 1fr 1fr}}
+  .strip .first {{grid-row: auto; grid-column: 1 / -1}}
+}}
+</style>"""
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One cell. text: as shown.   exact: on hover.   more: a word beside it."""
+
+    label: str
+    text: str
+    exact: str
+    more: str = ""
+
+
+def readout(study: Study) -> None:
+    """The strip; for a loop that is not stable it says so and holds no numbers."""
+    st.html(STYLE + strip_html(study))
+
+
+def strip_html(study: Study) -> str:
+    """The strip as HTML."""
+    if not study.stable:
+        return (
+            '<div class="strip alarm" role="status"><div class="first" style="grid-column: 1 / -1">'
+            "<b>Loop not stable</b><span>no margins and no metrics: they would mean nothing</span></div></div>"
+        )
+    band, words = band_of(study.margins.Ms)
+    Ms = _reading("Ms, peak of |S|", study.margins.Ms)
+    first = f'<div class="first" title="{Ms.exact}"><small>{Ms.label}</small><b>{Ms.text}</b><span>{words}</span></div>'
+    cells = "".join(_cell(cell) for cell in readings(study))
+    return f'<div class="strip {band}" role="status" aria-label="Figures that decide">{first}{cells}</div>'
+
+
+def readings(study: Study) -> list[Reading]:
+    """All cells after Ms, row by row. The loop must be stable."""
+    judged, metrics = study.margins, study.performance
+    lower = f"lower {number(judged.GM_lower, DIGITS)}" if judged.GM_lower > 0 else ""
+    return [
+        _reading("Gain margin GM", judged.GM, lower),
+        _reading("Phase margin PM", judged.PM_deg, "°"),
+        _reading("Delay margin", judged.delay_margin),
+        _reading("IAE set point", metrics.setpoint.IAE),
+        _reading("IAE load", metrics.disturbance.IAE),
+        _reading("Mt, peak of |T|", judged.Mt),
+        _pair("TV set point · load", metrics.setpoint.TV, metrics.disturbance.TV),
+        _percent("Overshoot", metrics.setpoint.overshoot),
+        _reading("Settling set point", metrics.setpoint.settling_time),
+        _reading("Settling load", metrics.disturbance.settling_time),
+    ]
+
+
+def band_of(Ms: float) -> tuple[str, str]:
+    """Name of the band of Ms, and what it means in words."""
+    if Ms <= CALM:
+        return "calm", "calm: robust (≤ 1.6)"
+    if Ms <= ATTENTION:
+        return "attention", "attention: little to spare (≤ 2.0)"
+    return "alarm", "alarm: too close to −1 (> 2.0)"
+
+
+def _cell(cell: Reading) -> str:
+    label = escape(cell.label)
+    return f'<div title="{escape(cell.exact)}"><small>{label}</small><b>{cell.text}</b> <i>{cell.more}</i></div>'
+
+
+def _reading(label: str, value: float, more: str = "") -> Reading:
+    if math.isinf(value):
+        return Reading(label, "∞", "infinite: no limit", "no limit")
+    return Reading(label, number(value, DIGITS), f"{value:.10g}", more)
+
+
+def _pair(label: str, first: float, second: float) -> Reading:
+    text = f"{number(first, DIGITS)} · {number(second, DIGITS)}"
+    return Reading(label, text, f"{first:.10g} · {second:.10g}")
+
+
+def _percent(label: str, value: float) -> Reading:
+    return Reading(label, number(100 * value, DIGITS), f"{100 * value:.10g} %", "%")

@@ -1,0 +1,93 @@
+"""From what the user has decided to everything the pages show of it. Pure: no streamlit."""
+
+import math
+from dataclasses import dataclass, replace
+
+from pages.common.design import Tuning
+from simc_core.controllers import Controller, IController
+from simc_core.grid import omega_grid
+from simc_core.half_rule import half_rule
+from simc_core.loop import FrequencyResponse, Loop, frequency_response
+from simc_core.margins import Margins, margins
+from simc_core.models import Model, UnstableDelay
+from simc_core.performance import Performance, performance
+from simc_core.plant import Plant
+from simc_core.reduction import Reduction
+from simc_core.simc import simc, tau_c_presets
+from simc_core.simulation import Scenario, TimeResponse, simulate
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Study:
+    """A tuning, the controller it leads to, and what the loop round the FULL plant does.
+
+    performance: None where the loop is not stable.
+    """
+
+    tuning: Tuning
+    reduction: Reduction
+    tau_c: float
+    loop: Loop
+    margins: Margins
+    performance: Performance | None
+
+    @property
+    def model(self) -> Model:
+        """The reduced model."""
+        return self.reduction.model
+
+    @property
+    def controller(self) -> Controller:
+        """The controller, with set-point weight and derivative filter."""
+        return self.loop.controller
+
+    @property
+    def stable(self) -> bool:
+        """Whether margins and metrics mean anything."""
+        return self.margins.stable
+
+
+def study(plant: Plant, tuning: Tuning) -> Study:
+    """Reduce, tune, close the loop, judge it. Raises SimcError, in words, where one of these is impossible."""
+    reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules)
+    tau_c = tau_c_in_use(reduction.model, tuning)
+    loop = Loop(plant, dressed(simc(reduction.model, tau_c), tuning))
+    judged = margins(loop)
+    return Study(tuning, reduction, tau_c, loop, judged, performance(loop) if judged.stable else None)
+
+
+def tau_c_in_use(model: Model, tuning: Tuning) -> float:
+    """tau_c as decided; else tight; for a model without dead time, the first preset there is.
+
+    The rule of an unstable pole knows tight alone.
+    """
+    if tuning.tau_c is not None and not isinstance(model, UnstableDelay):
+        return tuning.tau_c
+    return next(iter(tau_c_presets(model).values()), 1.0)
+
+
+def dressed(controller: Controller, tuning: Tuning) -> Controller:
+    """`controller` with the set-point weight and the derivative filter of `tuning`; pure I action takes neither."""
+    if isinstance(controller, IController):
+        return controller
+    return replace(controller, b=tuning.b, tau_F=tuning.filter * controller.tau_D)
+
+
+def time_responses(studies: list[Study]) -> list[TimeResponse]:
+    """Set-point step, then load step, at the same instants for all; the horizon suits the first study."""
+    first = simulate(studies[0].loop, Scenario())
+    t_end = float(first.t[-1])
+    begins = float(first.t[first.d != 0][0])
+    rest = [simulate(each.loop, Scenario(disturbance_time=begins, t_end=t_end)) for each in studies[1:]]
+    return [first, *rest]
+
+
+def frequency_responses(studies: list[Study]) -> list[FrequencyResponse]:
+    """L, S, T of all studies, on grids that hold the frequencies of their own margins."""
+    return [frequency_response(each.loop, omega_grid([each.loop.L], marks(each.margins))) for each in studies]
+
+
+def marks(judged: Margins) -> list[float]:
+    """Frequencies at which something is drawn."""
+    found = (judged.omega_180, judged.omega_c, judged.omega_Ms, judged.omega_Mt)
+    return [omega for omega in found if math.isfinite(omega)]

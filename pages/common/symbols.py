@@ -1,0 +1,34 @@
+"""Names of the core's plain messages as a reader of a page knows them: tau1 as τ₁, theta as θ."""
+
+import re
+
+SYMBOLS = {
+    "tau0b": "τ₀ᵦ",
+    "tau0": "τ₀",
+    "tau1": "τ₁",
+    "tau2": "τ₂",
+    "tau_c": "$\\tau_c$",
+    "tau_I": "$\\tau_I$",
+    "tau_D": "$\\tau_D$",
+    "tau_F": "$\\tau_F$",
+    "tau": "τ",
+    "theta": "θ",
+    "zeta": "ζ",
+    "omega": "ω",
+    "T0": "T₀",
+    "Kc": "$K_c$",
+    "Kp": "$K_p$",
+    "Kd": "$K_d$",
+    "K_I": "$K_I$",
+    "k'": "$k'$",
+    "k''": "$k''$",
+    "<=": "≤",
+    ">=": "≥",
+    "deg": "°",
+}
+WORD = re.compile(r"(?<![\w'])(?:" + "|".join(map(re.escape, sorted(SYMBOLS, key=len, reverse=True))) + r")(?![\w'])")
+
+
+def symbols(text: str) -> str:
+    """`text` for st.markdown, with Greek letters and indices in place of their plain names."""
+    return WORD.sub(lambda found: SYMBOLS[found[0]], text)
