@@ -2,6 +2,7 @@
 
 from simc_core.controllers import IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStable, ParseError, SimcError
+from simc_core.half_rule import half_rule
 from simc_core.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.margins import Margins, crossings, margins, margins_of
 from simc_core.models import (

@@ -14,10 +14,12 @@ from simc_core import (
     IdealPid,
     IntegratingDelay,
     InvalidParameter,
+    Loop,
     OscillatingDelay,
     SecondOrderDelay,
     SeriesPid,
     UnstableDelay,
+    frequency_response,
     simc,
     tau_c_presets,
 )
@@ -133,6 +135,39 @@ def test_oscillating_rule_is_the_series_rule_at_critical_damping():
     assert simc(OscillatingDelay(2, 1, 3, 1)) == IdealPid(1.5 * 2 / 2, 6.0, 1.5)
     series = simc(SecondOrderDelay(2, 1, 3, 3)).to_ideal()
     assert (series.Kc, series.tau_I, series.tau_D) == pytest.approx((1.5, 6.0, 1.5))
+
+
+def test_integrating_loop_is_critically_damped():
+    """[SK98]: with tau_I = 8 theta and the delay neglected tau0 = 4 theta, zeta = 1, period 2 pi tau0 = 25 theta."""
+    row = PUBLISHED["S002-tau0"]
+    controller = simc(IntegratingDelay(1, 1))
+    assert (controller.Kc, controller.tau_I) == (row.inputs["Kc"], row.inputs["tau_I"])
+    poles = np.roots([controller.tau_I / controller.Kc, controller.tau_I, 1])
+    tau0 = 1 / math.sqrt(abs(np.prod(poles)))
+    assert tau0 == row.approx(0)
+    assert -np.sum(poles).real * tau0 / 2 == row.approx(1)
+    assert 2 * math.pi * tau0 == row.approx(2)
+
+
+def test_slow_oscillation_and_the_retuning_rule():
+    """[SG12]: Kc tau_I times F = 0.1 (P0/tau_I)^2 brings k' Kc tau_I back to 4; exactly 1/pi^2 without dead time."""
+    k_prime, Kc, tau_I = 1.0, 0.1, 8.0
+    period = 2 * math.pi * math.sqrt(tau_I / (k_prime * Kc))
+    factor = 4 / (k_prime * Kc * tau_I)
+    assert factor / (period / tau_I) ** 2 == PUBLISHED["SG12-retune"].approx()
+
+
+def offset(plant, controller):
+    """Steady-state error of a set-point step, |S(0)|."""
+    return abs(frequency_response(Loop(plant, controller), [1e-9]).S[0])
+
+
+def test_offset_of_proportional_control():
+    """[SK98]: below 10 % only from tau1/theta = 18 on with the gain of the rule; 50 % at best for pure dead time."""
+    model = FirstOrderDelay(2, 1, PUBLISHED["S002-offset"].expected[0])
+    assert offset(model.plant, SeriesPid(simc(model).Kc, math.inf)) == pytest.approx(0.1, rel=1e-9)
+    row = PUBLISHED["S002-pure-offset"]
+    assert offset(row.plant, SeriesPid(1.0, math.inf)) == row.approx()
 
 
 def test_presets_of_arbogast_cooper_and_rice():
