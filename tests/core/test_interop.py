@@ -1,0 +1,96 @@
+"""Out to python-control and scipy.signal and back; what goes out has the frequency response of the formula."""
+
+import control
+import numpy as np
+import pytest
+from scipy import signal
+
+from simc_core import FormError, IController, InvalidParameter, Loop, ParallelPid, Plant, SeriesPid
+from simc_core.interop import closed_loop, controller_from, plant_from, to_scipy, to_ss, to_tf
+
+PLANTS = [
+    Plant(2.0, 0.5, (10.0, 3.0)),
+    Plant(-1.5, 0.5, (10.0, 3.0, 0.1, 0.01), (-1.0, 2.0, 0.3), integrators=1),
+    Plant(1.0, 2.0, (-20.0, 4.0), (), 0, ((2.0, 0.1),), ((3.0, 0.2),)),
+]
+CONTROLLERS = [
+    SeriesPid(2.0, 8.0),
+    SeriesPid(2.0, 8.0, 1.0, 0.1),
+    SeriesPid(2.0, np.inf, 1.0, 0.1),
+    SeriesPid(2.0, 8.0, 1.0, 0.1, b=0.5, c=0.3),
+    ParallelPid(-1.0, 0.3),
+    IController(0.3),
+]
+S = 1j * np.logspace(-3, 2, 60)
+
+
+def pade(theta, order):
+    """Pade approximation by its own formula: sum of (2n-k)! n!/((2n)! k! (n-k)!) (-+ theta s)^k."""
+    n = order
+    weight, top, bottom = 1.0, 0.0, 0.0
+    for k in range(n + 1):
+        top, bottom = top + weight * (-theta * S) ** k, bottom + weight * (theta * S) ** k
+        weight *= (n - k) / ((2 * n - k) * (k + 1))
+    return top / bottom
+
+
+@pytest.mark.parametrize("plant", PLANTS)
+def test_every_form_has_the_response_of_the_rational_part_times_pade(plant):
+    expected = plant.response(S) * np.exp(plant.theta * S) * pade(plant.theta, 4)
+    zpk = to_scipy(plant, 4)
+    _, by_scipy = signal.freqs_zpk(zpk.zeros, zpk.poles, zpk.gain, S.imag)
+    for given in (to_tf(plant, 4)(S), to_ss(plant, 4)(S), by_scipy):
+        np.testing.assert_allclose(given, expected, rtol=1e-8)
+
+
+@pytest.mark.parametrize("convert", [to_tf, to_ss, to_scipy])
+@pytest.mark.parametrize("plant", PLANTS)
+def test_a_plant_comes_back(plant, convert):
+    rational = Plant(plant.k, 0.0, plant.lags, plant.leads, plant.integrators, plant.lag_pairs, plant.lead_pairs)
+    again = plant_from(convert(rational), plant.theta)
+    assert again.theta == plant.theta
+    assert again.integrators == plant.integrators
+    np.testing.assert_allclose(again.response(S), plant.response(S), rtol=1e-9)
+
+
+@pytest.mark.parametrize("controller", CONTROLLERS)
+def test_a_controller_comes_back(controller):
+    form = controller.to_parallel()
+    wanted = [form.Kp, form.Ki, form.Kd, form.tau_F]
+    for convert in (to_tf, to_ss, to_scipy):
+        again = controller_from(convert(controller))
+        np.testing.assert_allclose([again.Kp, again.Ki, again.Kd, again.tau_F], wanted, rtol=1e-9, atol=1e-12)
+
+
+def test_derivative_action_without_a_filter_is_a_transfer_function_but_no_state_space():
+    controller = SeriesPid(2.0, 8.0, 1.0)
+    assert controller_from(to_tf(controller)) == controller.to_parallel()
+    with pytest.raises(FormError, match="tau_F > 0"):
+        to_ss(controller)
+
+
+@pytest.mark.parametrize("controller", [*CONTROLLERS, SeriesPid(2.0, 8.0, 1.0)])
+def test_the_closed_loop_is_the_block_diagram(controller):
+    for plant in (Plant(1.0, 1.0, (4.0, 2.0)), Plant(1.0, 1.0, (4.0,)), Plant(0.3, 0.0, (4.0, 2.0), (1.0,))):
+        G = to_ss(plant, 4)(S)
+        through = 1 / (1 + G * controller.response(S))
+        feed = controller.setpoint_response(S)
+        expected = np.array([[G * feed, G], [feed, -G * controller.response(S)]]) * through
+        np.testing.assert_allclose(closed_loop(Loop(plant, controller), 4)(S), expected, rtol=1e-8, atol=1e-9)
+
+
+def test_what_has_no_equivalent_is_refused():
+    with pytest.raises(InvalidParameter, match=r"pade_order must be given where theta = 0\.5"):
+        to_tf(PLANTS[0])
+    with pytest.raises(InvalidParameter, match="pade_order must be >= 1, got 0"):
+        to_ss(PLANTS[0], 0)
+    with pytest.raises(FormError, match="got degree 0 over degree 3"):
+        controller_from(control.tf([1.0], [1.0, 2.0, 3.0, 1.0]))
+    with pytest.raises(InvalidParameter, match="one input and one output, got 2"):
+        plant_from(control.ss(-np.eye(2), np.eye(2), np.eye(2), np.zeros((2, 2))))
+    with pytest.raises(InvalidParameter, match="continuous time"):
+        plant_from(control.tf([1.0], [1.0, -0.5], dt=0.1))
+    with pytest.raises(InvalidParameter, match="got str"):
+        plant_from("1/(s+1)")
+    with pytest.raises(FormError, match="tau_F > 0"):
+        closed_loop(Loop(Plant(1.0, 0.0, (4.0,), (1.0,)), SeriesPid(2.0, 8.0, 1.0)))
