@@ -27,6 +27,8 @@ MOST_NODES = 12_000
 LIGHT = 0.35  # damping below which a root gets a cluster
 CLUSTER = 1.5 ** np.arange(-4, 40)  # offsets from a resonance, in units of its half width
 NARROWEST = 1e-7  # half width of an undamped root, relative
+FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
+QUADRATIC = 1e-9  # after a Newton step this small the next would be below rounding
 STEPS = 60  # of the polishing; six are usual
 
 
@@ -35,7 +37,7 @@ class Crossings:
     """Frequencies in ascending order, and what is there.
 
     gain: omega where |L| = 1, with the phase margin there, arg(-L) in (-pi, pi].
-    phase: omega where L is real and negative, with |L| there.   S, T: omega of the peaks of |S| and |T|, with the peaks.
+    phase: omega where L is real and negative, with |L| there.   S, T: omega of the peaks of |S| and |T|, and these.
     envelope: bounds of |S| and |T| beyond the grid, 0 if it reaches far enough.
     """
 
@@ -54,7 +56,8 @@ def search(response: Response) -> Crossings:
     """Every crossing and peak at 0 < omega < inf that margins can depend on."""
     omega, logs, envelope = _nodes(response)
     values = _functions(*logs)
-    low, high, kind = _brackets(omega, *values)
+    resolved = response.theta * np.diff(omega) <= 1.01 * PHASE_STEP
+    low, high, kind = _brackets(omega, values[0], resolved)
     hidden = _hidden(omega, *values)
     if hidden[0].size:
         extra = _brackets_at(response, hidden)
@@ -99,12 +102,13 @@ def _functions(log: np.ndarray, first: np.ndarray, second: np.ndarray) -> tuple[
     return values, slopes
 
 
-def _brackets(omega: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Intervals that hold a zero: ends and kind."""
+def _brackets(omega: np.ndarray, values: np.ndarray, resolved: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Intervals that hold a zero: ends and kind. Where the grid does not resolve the phase, only |L| is looked at."""
     left, right = values[:, :-1], values[:, 1:]
     holds = (left < 0) != (right < 0)
     holds[PHASE] &= np.abs(left[PHASE] - right[PHASE]) < math.pi  # arg(-L) = 0, not its jump at pi
-    holds[S_PEAK:] &= left[S_PEAK:] > 0  # peaks, not valleys
+    holds[S_PEAK:] &= (left[S_PEAK:] - right[S_PEAK:]) * omega[1:] > FLAT  # peaks, not valleys
+    holds[PHASE:] &= resolved
     kind, at = np.nonzero(holds)
     return omega[at], omega[at + 1], kind
 
@@ -158,11 +162,11 @@ def _polished(response: Response, low, high, kind, of_slope: bool = False) -> np
         low, high = np.where(below, omega, low), np.where(below, high, omega)
         with np.errstate(divide="ignore", invalid="ignore"):
             newton = omega - value / slope
-        inside = (newton > low) & (newton < high)
+        inside = (newton >= low) & (newton <= high)
         following = np.where(value == 0, omega, np.where(inside, newton, np.sqrt(low * high)))
-        settled = np.abs(following - omega) <= 4e-16 * omega
+        settled = (inside & (np.abs(following - omega) <= QUADRATIC * omega)) | (high - low <= 4e-16 * omega)
         omega = following
-        if settled.all():
+        if np.all(settled | (value == 0)):
             break
     return omega
 

@@ -40,6 +40,9 @@ class Margins:
     stable: bool
 
 
+ROUNDING = 1e-12
+BEYOND = 1e-6  # what the envelope is good for
+
 NOT_STABLE = Margins(*[math.nan] * 10, stable=False)
 
 
@@ -60,20 +63,20 @@ def margins_of(response: Response) -> Margins:
     found = search(response)
     GM, GM_lower, omega_180 = _gain_margins(response, found)
     PM, omega_c = _phase_margin(found)
-    Ms, omega_Ms = _peak(found.S_peak, found.S_omega, _ends(response, lambda x: 1 / (1 + x), found.envelope[0]))
-    Mt, omega_Mt = _peak(found.T_peak, found.T_omega, _ends(response, lambda x: x / (1 + x), found.envelope[1]))
+    Ms, omega_Ms = _peak(found.S_peak, found.S_omega, _ends(response, lambda L: 1 / (1 + L)), found.envelope[0])
+    Mt, omega_Mt = _peak(found.T_peak, found.T_omega, _ends(response, lambda L: L / (1 + L)), found.envelope[1])
     return Margins(
-        GM,
-        GM_lower,
-        math.degrees(PM),
-        _delay_margin(response, found),
-        Ms,
-        Mt,
-        omega_180,
-        omega_c,
-        omega_Ms,
-        omega_Mt,
-        True,
+        GM=GM,
+        GM_lower=GM_lower,
+        PM_deg=math.degrees(PM),
+        delay_margin=_delay_margin(response, found),
+        Ms=Ms,
+        Mt=Mt,
+        omega_180=omega_180,
+        omega_c=omega_c,
+        omega_Ms=omega_Ms,
+        omega_Mt=omega_Mt,
+        stable=True,
     )
 
 
@@ -111,21 +114,16 @@ def _delay_margin(response: Response, found: Crossings) -> float:
     return float(np.min((found.gain_phase % (2 * math.pi)) / found.gain_omega, initial=math.inf))
 
 
-def _ends(response: Response, of, envelope: float) -> list[tuple[float, float]]:
+def _ends(response: Response, of) -> list[tuple[float, float]]:
     """|of(L)| at omega = 0 and at infinity."""
-    at_zero, at_infinity = _limits(response)
-    ends = [(_size(of, at_zero), 0.0), (_size(of, at_infinity), math.inf)]
-    return [*ends, (envelope, math.inf)]
+    ends = zip(_limits(response), (0.0, math.inf), strict=True)
+    return [(abs(of(L if math.isfinite(L) else 1e300)), omega) for L, omega in ends]
 
 
-def _size(of, L: float) -> float:
-    return abs(of(L)) if math.isfinite(L) else abs(of(1e300))
-
-
-def _peak(peaks: np.ndarray, omegas: np.ndarray, ends: list[tuple[float, float]]) -> tuple[float, float]:
-    """The largest of the peaks and the ends. A peak by rounding on the way to an end is none."""
+def _peak(peaks: np.ndarray, omegas: np.ndarray, ends, envelope: float) -> tuple[float, float]:
+    """The largest of the peaks, the ends and the envelope beyond the grid, and where it is."""
     best = max(ends)
-    if peaks.size and peaks.max() > best[0] * (1 + 1e-12):
+    if peaks.size and peaks.max() > best[0] * (1 + ROUNDING):  # else it is rounding on the way to an end
         at = int(np.argmax(peaks))
-        return float(peaks[at]), float(omegas[at])
-    return best
+        best = float(peaks[at]), float(omegas[at])
+    return (envelope, math.inf) if envelope > best[0] * (1 + BEYOND) else best
