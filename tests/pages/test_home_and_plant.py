@@ -5,7 +5,11 @@ import json
 
 import numpy as np
 import pytest
+from streamlit.testing.v1 import AppTest
 
+from pages.common import project
+from pages.common.design import Design, Tuning
+from simc_core import Plant
 from simc_core.examples import EXAMPLES
 from tests.pages.tools import address, run_app, run_page, texts
 
@@ -115,3 +119,20 @@ def test_state_survives_the_way_through_the_pages():
         app.switch_page(f"../{name}.py").run()
         assert not app.exception
         assert address(app) == {"plant": "2 exp(-s)/(10 s + 1)", "order": "1", "tau_c": "3", "b": "0.5"}
+
+
+def test_a_project_file_is_opened_and_a_wrong_one_changes_nothing():
+    app = run_page("plant", plant="2/(5s+1)", b="0.5")
+    wanted = project.dump(Design(Plant(7.0, 1.0, (9.0,)), Tuning(2, tau_c=3.0)))
+    upload(app, "wrong.json", wanted.replace('"version": 1', '"version": 7'))
+    assert "nothing changed: version must be 1, got 7" in app.error[0].value
+    assert address(app) == {"plant": "2/(5 s + 1)", "order": "1", "b": "0.5"}
+    upload(app, "right.json", wanted)
+    assert not app.error
+    assert address(app) == {"plant": "7 exp(-s)/(9 s + 1)", "order": "2", "tau_c": "3"}
+    assert app.text_input("plant_text_text").value == "7 exp(-s)/(9 s + 1)"
+
+
+def upload(app: AppTest, name: str, content: str) -> None:
+    app.file_uploader("project_file").set_value((name, content.encode(), "application/json")).run()
+    assert not app.exception
