@@ -12,7 +12,7 @@ from pages.common.tuning_widgets import settings, structure, tau_c_control
 design = header.show("tuning")
 with guards.spoken():
     present = study(design.plant, design.tuning)
-    controls, view = st.columns([1, 3], gap="medium")
+    controls, view = st.columns([4, 11], gap="medium")
     with controls:
         tau_c_control(present.model, present.tau_c)
         structure()

@@ -1,7 +1,5 @@
 """Designs set aside and compared with the present one: pinning, names, the table."""
 
-import math
-
 import streamlit as st
 
 from pages.common import state
@@ -12,6 +10,12 @@ from simc_core.notation import number
 from simc_core.plant import Plant
 
 LETTERS = "ABCD"
+LABELS = (
+    *("controller", "τc", "Kp", "Ki", "Kd", "τF", "b"),
+    *("Ms", "Mt", "GM", "GM, lower limit", "PM, degrees", "delay margin"),
+    *("IAE, set point", "IAE, load", "TV, set point", "TV, load"),
+    *("overshoot, %", "settling, set point", "settling, load"),
+)
 
 
 def pinned_studies(plant: Plant, pins: tuple[Tuning, ...]) -> list[tuple[str, Study]]:
@@ -45,8 +49,10 @@ def pin_button(tuning: Tuning, tau_c: float) -> None:
 
 
 def design_table(studies: list[tuple[str, Study]]) -> None:
-    """One row a design, present first; a loop that is not stable has no figures."""
-    st.dataframe([row(name, each) for name, each in studies], hide_index=True, width="stretch", key="designs")
+    """One column a design, present first; a loop that is not stable has no figures."""
+    columns = {name: facts(each) for name, each in studies}
+    rows = [{"": label} | {name: each.get(label, "–") for name, each in columns.items()} for label in LABELS]
+    st.dataframe(rows, hide_index=True, width="content", height="content", key="designs")
     pins = state.value("pins")
     if not pins:
         st.caption("Pin a design to compare it with the next: up to four, overlaid in the figures and listed here.")
@@ -56,35 +62,21 @@ def design_table(studies: list[tuple[str, Study]]) -> None:
             st.button(f"Unpin {LETTERS[i]}", key=f"unpin_{i}", on_click=state.change, kwargs={"pins": left})
 
 
-def row(name: str, each: Study) -> dict[str, str]:
-    """A line of the table, four significant digits."""
+def facts(each: Study) -> dict[str, str]:
+    """What the table says of a design by LABELS, four significant digits."""
     settings = each.controller.to_parallel()
-    facts = {
-        "design": name,
-        "type": "PID" if settings.Kd else "PI" if settings.Kp else "I",
-        "τc": number(each.tau_c),
-        "Kp": number(settings.Kp),
-        "Ki": number(settings.Ki),
-        "Kd": number(settings.Kd),
-        "b": number(settings.b),
-    }
+    kind = "PID" if settings.Kd else "PI" if settings.Kp else "I"
+    numbers = (each.tau_c, settings.Kp, settings.Ki, settings.Kd, settings.tau_F, settings.b)
+    found = [kind, *map(number, numbers)]
     if not each.stable:
-        return facts | {"Ms": "not stable"}
+        return dict(zip(LABELS, [*found, "not stable"], strict=False))
     judged, metrics = each.margins, each.performance
-    values = {
-        "Ms": judged.Ms,
-        "Mt": judged.Mt,
-        "GM": judged.GM,
-        "PM °": judged.PM_deg,
-        "delay margin": judged.delay_margin,
-        "IAE set point": metrics.setpoint.IAE,
-        "IAE load": metrics.disturbance.IAE,
-        "TV set point": metrics.setpoint.TV,
-        "TV load": metrics.disturbance.TV,
-        "overshoot %": 100 * metrics.setpoint.overshoot,
-        "settling": metrics.setpoint.settling_time,
-    }
-    return facts | {label: "∞" if math.isinf(value) else number(value) for label, value in values.items()}
+    judgement = (
+        *(judged.Ms, judged.Mt, judged.GM, judged.GM_lower, judged.PM_deg, judged.delay_margin),
+        *(metrics.setpoint.IAE, metrics.disturbance.IAE, metrics.setpoint.TV, metrics.disturbance.TV),
+        *(100 * metrics.setpoint.overshoot, metrics.setpoint.settling_time, metrics.disturbance.settling_time),
+    )
+    return dict(zip(LABELS, [*found, *map(number, judgement)], strict=True))
 
 
 def _pin(pins: tuple[Tuning, ...], tuning: Tuning, tau_c: float) -> None:

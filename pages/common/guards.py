@@ -12,6 +12,11 @@ from simc_core.errors import NotReducible, SimcError
 from simc_core.notation import number
 from simc_core.poles import dominant_poles
 
+STYLE = """<style>
+.st-key-guards [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
+.st-key-guards p {font-size: 0.85rem; line-height: 1.35}
+</style>"""
+
 
 @contextmanager
 def spoken() -> Iterator[None]:
@@ -27,18 +32,14 @@ def spoken() -> Iterator[None]:
 def show(study: Study) -> None:
     """Advice on the design: warnings open, notes folded below them."""
     judged = study.margins
-    if not study.stable:
-        st.error(
-            "**The loop is not stable.** Its limit is the dead time: no margin and no metric means anything here. "
-            "Increase $\\tau_c$."
-        )
     found = advice(study.model, study.controller, judged.Ms, judged.PM_deg, study.tau_c, study.reduction)
-    for item in found:
-        text = symbols(f"**{item.quantity}**, limit {item.limit}. {item.text} *{item.remedy}*")
-        if item.level == "warning":
-            st.warning(text)
-        else:
-            st.caption(text)
+    st.html(STYLE)
+    with st.container(key="guards", gap="xsmall"):
+        if not study.stable:
+            st.error("**The loop is not stable**, so it has neither margins nor metrics. *Increase $\\tau_c$.*")
+        for item in found:
+            text = symbols(f"**{item.quantity}**, limit {item.limit}. {item.text} *{item.remedy}*")
+            (st.warning if item.level == "warning" else st.caption)(text)
 
 
 def poles(study: Study) -> None:

@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages.common.study import Study, frequency_responses, marks, time_responses
+from pages.common.study import Study, common_grid, frequency_responses, time_responses
 from simc_core.figures import (
     Figure,
     config,
@@ -13,11 +13,17 @@ from simc_core.figures import (
     sensitivity_figure,
 )
 from simc_core.figures.curves import bode_curve
-from simc_core.grid import omega_grid
+from simc_core.margins import crossings
 
 HEIGHT, TALL = 250, 480  # px
 PANELS = ("y", "u", "Nyquist", "|S| |T|")
 KEYS = ("y", "u", "nyquist", "sensitivity")
+ALT = (
+    "Output y after a set-point step and a load step",
+    "Controller output u after a set-point step and a load step",
+    "Nyquist curve of L with Ms and Mt circles",
+    "Magnitude of S and T over frequency",
+)
 NARROW = "@media (max-width: 640px)"
 
 
@@ -45,19 +51,11 @@ def panels(studies: list[tuple[str, Study]]) -> None:
 
 def open_loop(studies: list[tuple[str, Study]]) -> None:
     """Bode diagram of L with the margins drawn in."""
-    curves = []
-    for name, each in studies:
-        L = each.loop.L
-        curves.append((name, bode_curve(L, omega_grid([L], marks(each.margins)))))
-    show(open_loop_figure(curves, studies[0][1].margins, TALL), "open_loop", "Bode diagram of the open loop L")
-
-
-ALT = (
-    "Output y after a set-point step and a load step",
-    "Controller output u after a set-point step and a load step",
-    "Nyquist curve of L with Ms and Mt circles",
-    "Magnitude of S and T over frequency",
-)
+    omega = common_grid([each for _, each in studies])
+    curves = [(name, bode_curve(each.loop.L, omega)) for name, each in studies]
+    present = studies[0][1]
+    figure = open_loop_figure(curves, present.margins, crossings(present.loop), TALL)
+    show(figure, "open_loop", "Bode diagram of the open loop L")
 
 
 def show(figure: Figure, key: str, alt: str) -> None:

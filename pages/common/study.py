@@ -1,7 +1,8 @@
 """From what the user has decided to everything the pages show of it. Pure: no streamlit."""
 
-import math
 from dataclasses import dataclass, replace
+
+import numpy as np
 
 from pages.common.design import Tuning
 from simc_core.controllers import Controller, IController
@@ -82,12 +83,16 @@ def time_responses(studies: list[Study]) -> list[TimeResponse]:
     return [first, *rest]
 
 
+def common_grid(studies: list[Study]) -> np.ndarray:
+    """One grid for the loops of all studies, which holds the frequencies of their margins."""
+    return omega_grid([each.loop.L for each in studies], [omega for each in studies for omega in _marks(each.margins)])
+
+
 def frequency_responses(studies: list[Study]) -> list[FrequencyResponse]:
-    """L, S, T of all studies, on grids that hold the frequencies of their own margins."""
-    return [frequency_response(each.loop, omega_grid([each.loop.L], marks(each.margins))) for each in studies]
+    """L, S, T of all studies at the same frequencies."""
+    omega = common_grid(studies)
+    return [frequency_response(each.loop, omega) for each in studies]
 
 
-def marks(judged: Margins) -> list[float]:
-    """Frequencies at which something is drawn."""
-    found = (judged.omega_180, judged.omega_c, judged.omega_Ms, judged.omega_Mt)
-    return [omega for omega in found if math.isfinite(omega)]
+def _marks(judged: Margins) -> tuple[float, ...]:
+    return judged.omega_180, judged.omega_c, judged.omega_Ms, judged.omega_Mt

@@ -82,7 +82,7 @@ def structure() -> None:
         0.0,
         2.0,
         step=0.1,
-        width=58,
+        width=54,
         format="%.3g",
         help="Set-point weight: the proportional action sees $b\\,r - y$. Less than 1 softens set-point steps; "
         "stability and load response stay as they are.",
@@ -93,7 +93,7 @@ def structure() -> None:
         0.0,
         10.0,
         step=0.01,
-        width=62,
+        width=60,
         format="%.3g",
         help="Derivative filter, 0 for none. It acts inside the loop: margins are computed with it.",
         **state.bound("filter"),

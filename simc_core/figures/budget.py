@@ -14,6 +14,7 @@ FATES = {
     "theta": ("into θ", palette.U, "/"),
     "cancelled": ("cancelled with a zero or lag", palette.NEUTRAL, "x"),
     "slope": ("into the slope k′", palette.Y, "."),
+    "integrator": ("absorbed by the integrator", palette.Y, "|"),
     "a": ("kept as the unstable pole", palette.D, "\\"),
 }
 

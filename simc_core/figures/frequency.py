@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from simc_core.crossings import Crossings
 from simc_core.figures import palette
 from simc_core.figures.curves import BodeCurve, bode_curve
 from simc_core.figures.palette import Figure, Trace
@@ -31,7 +32,9 @@ def bode_figure(plant: Plant, model: Plant | None = None, height: int | None = N
     return _bode_layout(traces, "|G|  [y/u]", "∠G  [°]", curves[0], height)
 
 
-def open_loop_figure(curves: Sequence[tuple[str, BodeCurve]], margins: Margins, height: int | None = None) -> Figure:
+def open_loop_figure(
+    curves: Sequence[tuple[str, BodeCurve]], margins: Margins, crossings: Crossings, height: int | None = None
+) -> Figure:
     """Bode diagram of L, present design first, with GM (both limits), PM and the delay margin drawn in."""
     traces = [
         trace
@@ -40,13 +43,13 @@ def open_loop_figure(curves: Sequence[tuple[str, BodeCurve]], margins: Margins, 
     ]
     present = curves[0][1]
     if margins.stable:
-        traces += [*_gain_margins(margins, present), *_phase_margin(margins), *_delay_margin(margins)]
+        traces += [
+            *_gain_margins(margins, crossings),
+            *_phase_margin(margins, crossings, present),
+            *_delay_margin(margins, crossings),
+        ]
     figure = _bode_layout(traces, "|L|  [–]", "∠L  [°]", present, height)
-    span = {"color": palette.NEUTRAL, "width": 1, "dash": "dot"}
-    figure["layout"]["shapes"] = [
-        {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "yref": "y", "y0": 1, "y1": 1, "line": span},
-        {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "yref": "y2", "y0": -180, "y1": -180, "line": span},
-    ]
+    figure["layout"]["shapes"] = [_level(1), _level(-180, "y2")]
     if not margins.stable:
         figure["layout"]["annotations"] = [palette.note("Loop not stable: no margins")]
     return figure
@@ -60,21 +63,22 @@ def sensitivity_figure(
     for position, (name, record) in reversed(list(enumerate(curves))):
         suffix = f" {name}" if position else ""
         color, dash, width = palette.shade(palette.S, position)
-        traces.append(_magnitude(record.omega, record.S, f"|S|{suffix}", color, dash, width))
+        pair = [_magnitude(record.omega, record.S, f"|S|{suffix}", color, dash, width)]
         color, dash, width = palette.shade(palette.Y, position)
-        dash = dash if position else "longdash"
-        traces.append(_magnitude(record.omega, record.T, f"|T|{suffix}", color, dash, width))
-    if margins.stable:
-        traces += _peak(margins.omega_Ms, margins.Ms, "Ms", palette.S, "top right")
-        traces += _peak(margins.omega_Mt, margins.Mt, "Mt", palette.Y, "top left")
+        pair.append(_magnitude(record.omega, record.T, f"|T|{suffix}", color, dash if position else "longdash", width))
+        traces += [trace | {"showlegend": position == 0} for trace in pair]  # the other figures name the pinned ones
     present = curves[0][1]
+    ends = float(present.omega[0]), float(present.omega[-1])
+    if margins.stable:
+        traces.append(_peak(margins.omega_Ms, margins.Ms, "Ms", palette.S, ends))
+        traces.append(_peak(margins.omega_Mt, margins.Mt, "Mt", palette.Y, ends))
     top = max(2.5, 1.6 * float(np.nanmax(np.abs(np.concatenate([present.S, present.T])))))
     return palette.figure(
         traces,
-        palette.log_axis(palette.FREQUENCY, hoverformat=".4g", range=_logs(present.omega[0], present.omega[-1])),
+        palette.log_axis(palette.FREQUENCY, hoverformat=".4g", range=_logs(*ends)),
         palette.log_axis("|S|, |T|  [–]", range=_logs(0.02, min(top, 100.0))),
         height,
-        shapes=[_at_one()],
+        shapes=[_level(1)],
         annotations=[] if margins.stable else [palette.note("Loop not stable: peaks mean nothing")],
     )
 
@@ -101,11 +105,12 @@ def _magnitude(omega: np.ndarray, F: np.ndarray, name: str, color: str, dash: st
     return palette.line(omega, np.abs(F), name, color, dash, width, hovertemplate="%{y:.4g}")
 
 
-def _peak(omega: float, height: float, symbol: str, color: str, position: str) -> list[Trace]:
-    if not (math.isfinite(height) and 0 < omega < math.inf):
-        return []
-    hover = f"{symbol} = {height:.4g} at ω = {omega:.4g}<extra></extra>"
-    return [palette.marker(omega, height, f"{symbol} {height:.3g}", color, symbol, position, hovertemplate=hover)]
+def _peak(omega: float, height: float, symbol: str, color: str, ends: tuple[float, float]) -> Trace:
+    """A marked peak; one at omega = 0 or infinity is marked at that end of the picture."""
+    at = min(max(omega, ends[0]), ends[1])
+    label, hover = f"{symbol} {height:.3g}", f"{symbol} = {height:.4g} at ω = {omega:.4g}<extra></extra>"
+    left = (symbol == "Mt" and at > ends[0]) or at == ends[1]
+    return palette.marker(at, height, label, color, symbol, "top left" if left else "top right", hovertemplate=hover)
 
 
 def _bode(name: str, curve: BodeCurve, color: str, dash: str, width: float) -> tuple[Trace, Trace]:
@@ -129,41 +134,43 @@ def _bode_layout(traces: list[Trace], gain: str, phase: str, curve: BodeCurve, h
     )
 
 
-def _gain_margins(margins: Margins, curve: BodeCurve) -> list[Trace]:
-    """A stroke from |L| = 1/GM up (or down) to 1 at the crossing of -180 degrees."""
+def _gain_margins(margins: Margins, crossings: Crossings) -> list[Trace]:
+    """A stroke from |L| = 1/GM up, or 1/GM_lower down, to 1 where L is real and negative."""
     strokes = []
-    if math.isfinite(margins.GM):
-        strokes.append(_stroke(margins.omega_180, 1 / margins.GM, 1.0, f"GM {margins.GM:.3g}", "y"))
-    if margins.GM_lower > 0:
-        # where |L| = 1/GM_lower with the phase at an odd multiple of 180 degrees
-        below = np.abs(np.log(curve.magnitude * margins.GM_lower)) + np.abs((curve.phase_deg / 180) % 2 - 1)
-        omega = float(curve.omega[np.argmin(below)])
-        strokes.append(_stroke(omega, 1 / margins.GM_lower, 1.0, f"GM lower {margins.GM_lower:.3g}", "y"))
+    for name, limit in (("GM", margins.GM), ("GM lower", margins.GM_lower)):
+        if crossings.phase_gain.size and 0 < limit < math.inf:
+            at = int(np.argmin(np.abs(np.log(crossings.phase_gain * limit))))
+            omega, place = float(crossings.phase_omega[at]), "top right" if name == "GM" else "bottom left"
+            strokes.append(_stroke(omega, 1.0, 1 / limit, f"{name} {limit:.3g}", "y", place))
     return strokes
 
 
-def _phase_margin(margins: Margins) -> list[Trace]:
-    if not math.isfinite(margins.PM_deg):
+def _phase_margin(margins: Margins, crossings: Crossings, curve: BodeCurve) -> list[Trace]:
+    """A stroke from the odd multiple of 180 degrees that counts to the phase where |L| = 1."""
+    if not crossings.gain_omega.size:
         return []
-    return [_stroke(margins.omega_c, margins.PM_deg - 180, -180.0, f"PM {margins.PM_deg:.3g}°", "y2")]
+    at = int(np.argmin(np.abs(crossings.gain_phase)))
+    omega = float(crossings.gain_omega[at])
+    phase = float(np.interp(omega, curve.omega, curve.phase_deg))
+    limit = phase - math.degrees(crossings.gain_phase[at])
+    return [_stroke(omega, limit, phase, f"PM {margins.PM_deg:.3g}°", "y2", "bottom left")]
 
 
-def _delay_margin(margins: Margins) -> list[Trace]:
-    """The crossing the delay margin belongs to, |L| = 1."""
-    if not math.isfinite(margins.delay_margin):
+def _delay_margin(margins: Margins, crossings: Crossings) -> list[Trace]:
+    """The gain crossing the delay margin belongs to, which need not be that of the phase margin."""
+    if not crossings.gain_omega.size:
         return []
+    at = int(np.argmin(crossings.gain_phase % (2 * math.pi) / crossings.gain_omega))
     label = f"delay margin {margins.delay_margin:.3g}"
-    return [
-        palette.marker(margins.omega_c, 1.0, label, palette.U, "delay margin", "top right")
-        | {"hovertemplate": f"{label}<extra></extra>"}
-    ]
+    point = palette.marker(float(crossings.gain_omega[at]), 1.0, label, palette.U, "delay margin", "bottom left")
+    return [point | {"hovertemplate": f"{label} at ω = %{{x:.4g}}<extra></extra>"}]
 
 
-def _stroke(omega: float, start: float, end: float, label: str, axis: str) -> Trace:
+def _stroke(omega: float, start: float, end: float, label: str, axis: str, place: str) -> Trace:
     return palette.line([omega, omega], [start, end], label, palette.U, "solid", 2.5) | {
         "mode": "lines+markers+text",
         "text": [label, ""],
-        "textposition": "middle right",
+        "textposition": place,
         "marker": {"color": palette.U, "size": 6},
         "hovertemplate": f"{label} at ω = {omega:.4g}<extra></extra>",
         "showlegend": False,
@@ -171,9 +178,9 @@ def _stroke(omega: float, start: float, end: float, label: str, axis: str) -> Tr
     }
 
 
-def _at_one() -> dict:
+def _level(value: float, axis: str = "y") -> dict:
     stroke = {"color": palette.NEUTRAL, "width": 1, "dash": "dot"}
-    return {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": 1, "y1": 1, "line": stroke}
+    return {"type": "line", "xref": "paper", "x0": 0, "x1": 1, "yref": axis, "y0": value, "y1": value, "line": stroke}
 
 
 def _logs(low: float, high: float) -> list[float]:

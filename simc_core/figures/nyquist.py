@@ -8,13 +8,13 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from simc_core.margins import Margins
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.loop import FrequencyResponse
+from simc_core.margins import Margins
 
-REFERENCES = ((1.4, 112.0), (1.6, 90.0), (2.0, 68.0))  # Ms, and where the label interrupts its circle, degrees
+REFERENCES = ((1.4, 122.0), (1.6, 90.0), (2.0, 52.0))  # Ms, and where the label interrupts its circle, degrees
 LABEL = 0.14  # half length of the interruption, in units of L
 FLAT = 1e-6  # |Mt - 1| below this: the circle is a line to the eye
 VIEW_X, VIEW_Y = (-2.2, 0.7), (-1.4, 0.85)
@@ -29,10 +29,18 @@ def nyquist_figure(
     traces = [trace for pair in circles for trace in pair]
     if margins.stable:
         traces += [*_ms_circle(margins), *_mt_circle(margins.Mt)]
-    traces += reversed([_curve(name, record, position) for position, (name, record) in enumerate(curves)])
+    found = [_curve(name, record, position) for position, (name, record) in enumerate(curves)]
+    traces += [trace | {"showlegend": len(curves) > 1} for trace in reversed(found)]
     traces.append(
         palette.marker(-1, 0, "−1", palette.NEUTRAL, "critical point", "bottom left", hoverinfo="skip")
-        | {"marker": {"color": palette.ALARM, "size": 10, "symbol": "cross-thin", "line": {"width": 2.5, "color": palette.ALARM}}}
+        | {
+            "marker": {
+                "color": palette.ALARM,
+                "size": 10,
+                "symbol": "cross-thin",
+                "line": {"width": 2.5, "color": palette.ALARM},
+            }
+        }
     )
     return palette.figure(
         traces,

@@ -7,11 +7,11 @@ A record holds both limits where a signal jumps, and so does the picture: a vert
 from collections.abc import Sequence
 
 import numpy as np
-from simc_core.plant_step import PlantStep
-from simc_core.simulation import TimeResponse
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
+from simc_core.plant_step import PlantStep
+from simc_core.simulation import TimeResponse
 
 Curves = Sequence[tuple[str, TimeResponse]]
 FAR = 10.0  # a response that leaves this many steps is growing: the view stays where the eye can read

@@ -11,7 +11,7 @@ from simc_core.figures.curves import bode_curve
 from simc_core.figures.nyquist import mt_circle
 from simc_core.grid import omega_grid
 from simc_core.half_rule import half_rule
-from simc_core.margins import margins
+from simc_core.margins import crossings, margins
 from simc_core.model_error import model_error
 from simc_core.plant_step import plant_step
 from simc_core.simulation import Scenario, simulate
@@ -46,7 +46,7 @@ def all_figures():
         yield figures.input_figure(times, 250, judged.stable)
         yield figures.nyquist_figure(several, judged, 250)
         yield figures.sensitivity_figure(several, judged, 250)
-        yield figures.open_loop_figure([("present", curve), ("A", curve)], judged, 480)
+        yield figures.open_loop_figure([("present", curve), ("A", curve)], judged, crossings(loop), 480)
     reduction = half_rule(LAG)
     compared = model_error(LAG, reduction.model, simc(reduction.model))
     yield figures.budget_figure(reduction)
@@ -73,7 +73,7 @@ def test_nothing_is_drawn_as_a_margin_of_a_loop_that_is_not_stable():
     for figure in (
         figures.nyquist_figure([("present", record)], judged),
         figures.sensitivity_figure([("present", record)], judged),
-        figures.open_loop_figure([("present", bode_curve(UNSTABLE.L, record.omega))], judged),
+        figures.open_loop_figure([("present", bode_curve(UNSTABLE.L, record.omega))], judged, crossings(UNSTABLE)),
     ):
         assert not [text for text in labels(figure) if text.startswith(("Ms ", "Mt ", "GM", "PM", "delay"))]
         assert not [each for each in figure["data"] if "circle" in str(each.get("meta", ""))]
@@ -119,27 +119,26 @@ def test_the_peak_of_s_is_marked_where_it_is():
 
 
 def test_bode_of_an_integrator_with_dead_time_is_its_closed_form():
-    figure = figures.open_loop_figure([("present", bode_curve(TIGHT.L, omega_grid([TIGHT.L])))], margins(TIGHT))
+    curve = bode_curve(TIGHT.L, drawn(TIGHT)[0].omega)
+    figure = figures.open_loop_figure([("present", curve)], margins(TIGHT), crossings(TIGHT))
     gain, phase = [each for each in figure["data"] if each["name"] == "present"]
     assert gain["y"] == pytest.approx(0.5 / gain["x"], rel=1e-12)
     assert phase["y"] == pytest.approx(-90 - np.rad2deg(phase["x"]), abs=1e-9)
     stroke = trace(figure, "GM")
     assert stroke["x"][0] == pytest.approx(math.pi / 2)
-    assert list(stroke["y"]) == pytest.approx([1 / math.pi, 1.0])
+    assert list(stroke["y"]) == pytest.approx([1.0, 1 / math.pi])
     stroke = trace(figure, "PM")
     assert stroke["x"][0] == pytest.approx(0.5)
-    assert stroke["y"][0] - stroke["y"][1] == pytest.approx(61.3521, abs=5e-5)
+    assert stroke["y"][1] - stroke["y"][0] == pytest.approx(61.3521, abs=5e-5)
 
 
 def test_both_gain_limits_of_a_double_integrating_loop_are_drawn():
     loop = Loop(Plant(1.0, 1.0, integrators=2), SeriesPid(0.0625, 8.0, 8.0))
     record, judged = drawn(loop)
-    figure = figures.open_loop_figure([("present", bode_curve(loop.L, record.omega))], judged)
+    figure = figures.open_loop_figure([("present", bode_curve(loop.L, record.omega))], judged, crossings(loop))
     lower = trace(figure, "GM lower")
-    assert lower["y"][0] == pytest.approx(1 / 0.165, rel=5e-3)  # theory.md sect. 3
-    L = loop.L(1j * lower["x"][0])
-    assert abs(L) == pytest.approx(lower["y"][0], rel=0.02)
-    assert abs(np.angle(-L)) < 0.05
+    assert lower["y"][1] == pytest.approx(1 / 0.165, rel=5e-3)  # theory.md sect. 3
+    assert loop.L(1j * lower["x"][0]) == pytest.approx(-lower["y"][1], rel=1e-6)
     left = figures.nyquist_figure([("present", record)], judged)["layout"]["xaxis"]["range"][0]
     assert left < -1 / judged.GM_lower
 
