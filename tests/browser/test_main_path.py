@@ -109,7 +109,7 @@ def test_table_and_polynomials_edit_the_same_plant(server, open_page):
     denominator.fill("12 7 1")
     denominator.press("Enter")
     idle(page)
-    expect(page.locator(".st-key-line .katex").first).to_contain_text("(4s+1)(3s+1)")
+    expect(page.locator(".st-key-line .katex").first).to_contain_text("(3s+1)(4s+1)")
     picture(page, "plant-polynomials")
 
 
