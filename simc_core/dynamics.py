@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 
 from simc_core.errors import NotReducible
-from simc_core.notation import latex_number, number
+from simc_core.notation import latex_number, number, times_s
 from simc_core.plant import Plant
 from simc_core.reduction import Share, Step
 
@@ -85,21 +85,21 @@ def _cancelled_pairs(plant: Plant, steps: list[Step]):
 
 def _split_pair(what: str, tau: float, zeta: float, steps: list[Step]) -> list[float]:
     """Two real time constants for a well damped pair, with a line about it."""
-    shown = latex_number(tau)
-    left = rf"{latex_number(tau * tau)} s^2 + {latex_number(2 * zeta * tau)} s + 1"
+    square, middle = latex_number(tau * tau), times_s(latex_number(2 * zeta * tau))
+    left = ("" if square == "1" else f"{square} ") + rf"s^2 + {middle} + 1"
     if zeta >= 1:
         large = tau * (zeta + math.sqrt(zeta * zeta - 1))
         times = [large, tau * tau / large]
         both = f"{number(times[0])} and {number(times[1])}"
         text = f"The {what} with zeta = {number(zeta)} >= 1 are real: time constants {both}."
-        equation = rf"{left} = ({latex_number(times[0])} s + 1)({latex_number(times[1])} s + 1)"
+        equation = rf"{left} = ({times_s(latex_number(times[0]))} + 1)({times_s(latex_number(times[1]))} + 1)"
     else:
         times = [tau, tau]
         text = (
             f"The complex {what} with zeta = {number(zeta)} are damped enough (zeta >= {OSCILLATING:g}) "
             f"to be taken as two equal time constants {number(tau)}; this is an approximation."
         )
-        equation = rf"{left} \approx ({shown} s + 1)^2"
+        equation = rf"{left} \approx ({times_s(latex_number(tau))} + 1)^2"
     steps.append(Step("pair", text, equation, {"tau": tau, "zeta": zeta}))
     return times
 
@@ -126,8 +126,8 @@ def _cancelled_lags(lags: list[float], leads: list[float], steps: list[Step], ca
         cancelled.append(Share(f"lag {number(T)}", "lag", T, (("=", T),)))
         cancelled.append(Share(f"zero {number(T)}", "lead", T, (("=", T),)))
         text = f"The zero {number(T)} and the lag {number(T)} are equal and cancel exactly."
-        shown = latex_number(T)
-        steps.append(Step("cancel", text, rf"\frac{{{shown} s + 1}}{{{shown} s + 1}} = 1", {"T0": T, "tau0": T}))
+        factor = f"{times_s(latex_number(T))} + 1"
+        steps.append(Step("cancel", text, rf"\frac{{{factor}}}{{{factor}}} = 1", {"T0": T, "tau0": T}))
     return lags, left
 
 

@@ -177,7 +177,6 @@ def _choose(plant: Plant, models: list[Model]) -> tuple[Candidate, ...]:
 def _tight_Ms(plant: Plant, model: Model) -> float:
     """Ms of the SIMC loop at tau_c = theta round the original plant, nan where there is no such stable loop."""
     try:
-        controller = simc(model)
-    except InvalidParameter:
+        return margins(Loop(plant, simc(model))).Ms
+    except InvalidParameter:  # the rule ends before this model, or the loop is ill-posed
         return math.nan
-    return margins(Loop(plant, controller)).Ms

@@ -85,7 +85,7 @@ class _Latex:
         return base if exponent == 1 else f"{base}^{{{exponent}}}"
 
     def delay(self, theta: float) -> str:
-        return rf"e^{{-{_times_s(self.number(theta))}}}" if theta else ""
+        return rf"e^{{-{times_s(self.number(theta))}}}" if theta else ""
 
     def product(self, parts: list[str]) -> str:
         return " ".join(parts)
@@ -112,11 +112,11 @@ class _Plain:
         return base if exponent == 1 else f"{base}^{exponent}"
 
     def delay(self, theta: float) -> str:
-        return f"exp(-{_times_s(self.number(theta))})" if theta else ""
+        return f"exp(-{times_s(self.number(theta))})" if theta else ""
 
 
-def _times_s(coefficient: str) -> str:
-    """2 s, and s for a coefficient of one."""
+def times_s(coefficient: str) -> str:
+    """ "2 s" for "2", and "s" for "1"."""
     return "s" if coefficient == "1" else f"{coefficient} s"
 
 
@@ -141,8 +141,8 @@ def _powers(written: list[str], show: _Latex | _Plain) -> list[str]:
 
 def _first_order(tau: float, show: _Latex | _Plain) -> str:
     if tau < 0:
-        return f"(1 - {_times_s(show.number(-tau))})"
-    return f"({_times_s(show.number(tau))} + 1)"
+        return f"(1 - {times_s(show.number(-tau))})"
+    return f"({times_s(show.number(tau))} + 1)"
 
 
 def _second_order(pair: tuple[float, float], show: _Latex | _Plain) -> str:
@@ -151,7 +151,7 @@ def _second_order(pair: tuple[float, float], show: _Latex | _Plain) -> str:
     first = "s^2" if square == "1" else f"{square} s^2"
     if zeta == 0:
         return f"({first} + 1)"
-    return f"({first} {'+' if zeta > 0 else '-'} {_times_s(show.middle(tau, abs(zeta)))} + 1)"
+    return f"({first} {'+' if zeta > 0 else '-'} {times_s(show.middle(tau, abs(zeta)))} + 1)"
 
 
 def _latex_controller(controller: Controller, digits: int) -> str:
@@ -159,13 +159,13 @@ def _latex_controller(controller: Controller, digits: int) -> str:
         return latex_number(value, digits)
 
     def lag(tau: float) -> str:
-        return f"{_times_s(show(tau))} + 1"
+        return f"{times_s(show(tau))} + 1"
 
     match controller:
         case IController(K_I):
             return rf"\frac{{{show(K_I)}}}{{s}}"
         case SeriesPid(Kc, tau_I, tau_D, tau_F):
-            integral = "" if tau_I == math.inf else rf"\frac{{{lag(tau_I)}}}{{{_times_s(show(tau_I))}}}"
+            integral = "" if tau_I == math.inf else rf"\frac{{{lag(tau_I)}}}{{{times_s(show(tau_I))}}}"
             derivative = rf"({lag(tau_D)})" if tau_D else ""
             if tau_F:
                 derivative = rf"\frac{{{lag(tau_D) if tau_D else 1}}}{{{lag(tau_F)}}}"
@@ -173,8 +173,8 @@ def _latex_controller(controller: Controller, digits: int) -> str:
         case IdealPid(Kc, tau_I, tau_D, tau_F):
             inner = [
                 "1",
-                *([] if tau_I == math.inf else [rf"\frac{{1}}{{{_times_s(show(tau_I))}}}"]),
-                *([_times_s(show(tau_D))] if tau_D else []),
+                *([] if tau_I == math.inf else [rf"\frac{{1}}{{{times_s(show(tau_I))}}}"]),
+                *([times_s(show(tau_D))] if tau_D else []),
             ]
             action = rf"\left({' + '.join(inner)}\right)" if len(inner) > 1 else ""
             return f"{show(Kc)} {action}".strip() + _latex_filter(tau_F, show)
@@ -182,11 +182,11 @@ def _latex_controller(controller: Controller, digits: int) -> str:
             terms = [
                 *([show(Kp)] if Kp else []),
                 *([rf"\frac{{{show(Ki)}}}{{s}}"] if Ki else []),
-                *([_times_s(show(Kd))] if Kd else []),
+                *([times_s(show(Kd))] if Kd else []),
             ]
             total = " + ".join(terms).replace("+ -", "- ")
             return rf"\left({total}\right)" + _latex_filter(tau_F, show) if tau_F else total
 
 
 def _latex_filter(tau_F: float, show) -> str:
-    return rf" \frac{{1}}{{{_times_s(show(tau_F))} + 1}}" if tau_F else ""
+    return rf" \frac{{1}}{{{times_s(show(tau_F))} + 1}}" if tau_F else ""

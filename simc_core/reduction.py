@@ -25,8 +25,9 @@ class Share:
 
     label: e.g. "lag 6".   kind: "lag", "pair", "lead", "inverse", "dead time", "sampling", "integrator", "unstable".
     amount: its time; math.inf for an integrator.
-    parts: (where, time), where in "tau1", "tau2", "tau0", "theta", "T1", "T1a", "T1b", "T2", "T3", "1998", "=",
-    "slope", "a": kept in the model under that name, or cancelled by that rule. The times of a lag add up to it.
+    parts: (where, time). Kept in the model: "tau1", "tau2", "tau0", "theta", "slope" (an integrator), "a" (an unstable
+    pole). Gone: by the rule "T1", "T1a", "T1b", "T2", "T3", "1998 small", "1998 large", "1998 cancel", by exact
+    cancellation "=", or absorbed by an "integrator". The times of a lag add up to it.
     """
 
     label: str

@@ -11,7 +11,7 @@ from simc_core.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
-from simc_core.notation import latex, latex_number, number
+from simc_core.notation import latex, latex_number, number, times_s
 from simc_core.reduction import Candidate, Share, Step
 from simc_core.split import Outcome
 from simc_core.zeros import Match
@@ -109,16 +109,16 @@ def notes(parts: Dynamics, model: Model, order: int, second: Model, pays: bool |
 
 
 def _match_step(match: Match, theta: float) -> Step:
-    T0, tau0, rest = latex_number(match.T0), latex_number(match.tau0), latex_number(match.rest)
+    T0, tau0, rest = (times_s(latex_number(value)) for value in (match.T0, match.tau0, match.rest))
     amounts = {"T0": match.T0, "tau0": match.tau0, "theta": theta, "rest": match.rest, "gain": match.gain}
     if match.rule == "1998 small":
         text = f"1998 rule: the zero {number(match.T0)} is small (not above theta) and is subtracted from the delay."
-        return Step(match.rule, text, rf"{T0} s + 1 \approx e^{{{T0} s}}", amounts)
+        return Step(match.rule, text, rf"{T0} + 1 \approx e^{{{T0}}}", amounts)
     integrator = math.isinf(match.tau0)
-    below = "s" if integrator else f"{tau0} s + 1"
+    below = "s" if integrator else f"{tau0} + 1"
     gain = latex_number(match.gain)
-    becomes = rf"\frac{{{gain}}}{{{rest} s + 1}}" if match.rest else gain
-    equation = rf"\frac{{{T0} s + 1}}{{{below}}} \approx {becomes}"
+    becomes = rf"\frac{{{gain}}}{{{rest} + 1}}" if match.rest else gain
+    equation = rf"\frac{{{T0} + 1}}{{{below}}} \approx {becomes}"
     against = "the integrator" if integrator else f"the lag {number(match.tau0)}"
     outcome = f"a lag of {number(match.rest)} is left" if match.rest else "both vanish"
     if match.rule.startswith("1998"):
@@ -214,6 +214,8 @@ def _choice_step(candidates: tuple[Candidate, ...], chosen: Candidate) -> Step:
 
 def _described(candidate: Candidate) -> str:
     peak = f"Ms {number(candidate.Ms, 3)}" if math.isfinite(candidate.Ms) else "no stable SIMC loop"
+    if candidate.theta == 0:
+        peak = "no tau_c = theta"
     return f"{number(candidate.theta)} ({peak})"
 
 
