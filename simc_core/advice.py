@@ -14,9 +14,8 @@ from simc_core.models import (
     UnstableDelay,
 )
 from simc_core.notation import number
-from simc_core.reduction import Reduction
+from simc_core.reduction import LARGEST_MS, Reduction
 
-LARGEST_MS = 2.0  # [SK03]: Ms should be below about 2; 1.4 to 1.7 is usual
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4

@@ -29,7 +29,7 @@ from simc_core.loop import Loop
 from simc_core.margins import margins
 from simc_core.models import IntegratingDelay, Model, SecondOrderDelay
 from simc_core.plant import Plant
-from simc_core.reduction import Candidate, Reduction
+from simc_core.reduction import LARGEST_MS, Candidate, Reduction
 from simc_core.simc import simc
 from simc_core.split import Outcome, delay_of, model_of, resolved, shape_of
 from simc_core.story import budget, notes, steps
@@ -37,8 +37,7 @@ from simc_core.zeros import Lag, Line, Walk, remove_leads
 from simc_core.zeros_1998 import remove_leads_1998
 
 RULES = ("2003", "1998")
-LARGEST_MS = 2.0  # the default candidate is the fastest one whose tight loop stays below this peak
-MOST_PROBES = 400  # of theta between changes of the rules; a dozen is usual, a dozen zeros need about 100
+MOST_PROBES = 400  # of theta; median 18 for two zeros, 100 for six, 240 for a dozen. Beyond this some may be missed
 INSIDE = 0.414  # where an interval is probed; not the middle, where symmetric plants have their changes
 SAME = 1e-9  # relative; two delays this close are one
 

@@ -12,7 +12,7 @@ from simc_core.models import (
     UnstableDelay,
 )
 from simc_core.notation import latex, latex_number, number, times_s
-from simc_core.reduction import Candidate, Share, Step
+from simc_core.reduction import LARGEST_MS, Candidate, Share, Step
 from simc_core.split import Outcome
 from simc_core.zeros import Match
 
@@ -200,7 +200,7 @@ def _delay_step(parts: Dynamics, outcome: Outcome, h: float, theta: float) -> St
 
 def _choice_step(candidates: tuple[Candidate, ...], chosen: Candidate) -> Step:
     others = ", ".join(_described(candidate) for candidate in candidates if not candidate.chosen)
-    if chosen.Ms <= 2:
+    if chosen.Ms <= LARGEST_MS:
         why = "it is the smallest delay > 0 whose SIMC loop (tau_c = theta) round the original plant has Ms <= 2"
     elif math.isfinite(chosen.Ms):
         why = "no delay gives a SIMC loop with Ms <= 2 round the original plant; this one has the smallest Ms"
