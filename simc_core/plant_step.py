@@ -1,10 +1,7 @@
 """Step response of a plant alone, exact dead time.
 
-G(s) = g(s) e^{-theta s}; y(t) = y0(t - theta), with y0 the unit step response of g. g is a chain of sections
-
-    (b2 s^2 + b1 s + b0)/(a s^2 + b s + c)      x1' = x2, x2' = (u - c x1 - b x2)/a, y = D u + ...,  D = b2/a
-
-so that x' = A x + B with constant input, and [x; 1] moves from one instant to the next by one matrix exponential.
+G(s) = g(s) e^{-theta s}; y(t) = y0(t - theta), with y0 the unit step response of g. g is a chain of sections,
+x' = A x + B with constant input, and [x; 1] moves from one instant to the next by one matrix exponential.
 The grid is uniform; the dead time shifts it by a first step of another length, never by rounding to the grid.
 """
 
@@ -15,6 +12,7 @@ from scipy.linalg import expm
 
 from simc_core import checks
 from simc_core.plant import Plant
+from simc_core.realisation import chain
 
 POINTS = 600
 SETTLED = 4.0  # spreads of the decay after which a stable response is at rest to 2 %
@@ -42,7 +40,7 @@ def plant_step(plant: Plant, t_end: float | None = None) -> PlantStep:
     y = np.zeros(POINTS)
     if after.size == 0:
         return PlantStep(t, y)
-    A, B, C, D = _chain(plant, step)
+    A, B, C, D = chain(plant.factored, step)
     n = len(B)
     motion = np.zeros((n + 1, n + 1))
     motion[:n, :n], motion[:n, n] = A, B
@@ -50,7 +48,7 @@ def plant_step(plant: Plant, t_end: float | None = None) -> PlantStep:
         state = expm(motion * (t[after[0]] - plant.theta) / step)[:, n]
         advance = expm(motion)
         for i in after:
-            y[i] = plant.k * (C @ state[:n] + D)
+            y[i] = C @ state[:n] + D
             state = advance @ state
     return PlantStep(t, y)
 
@@ -73,39 +71,3 @@ def _envelope(tau: float, zeta: float) -> float:
     if zeta >= 1:
         return tau * (zeta + np.sqrt(zeta * zeta - 1))
     return tau / max(zeta, SETTLED / (2 * np.pi * MOST_PERIODS))
-
-
-def _chain(plant: Plant, unit: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """A (n, n), B (n,), C (n,), D of G/(k e^{-theta s}), time measured in `unit`."""
-    parts = plant.factored
-    num, den = _sections(parts.num, unit), _sections(parts.den, unit)
-    num += [(0.0, 0.0, 1.0)] * (len(den) - len(num))
-    n = sum(2 if a else 1 for a, _, _ in den)
-    A, B, C, D, used = np.zeros((n, n)), np.zeros(n), np.zeros(n), 1.0, 0
-    for (b2, b1, b0), (a, b, c) in zip(num, den, strict=True):
-        size = 2 if a else 1
-        rows, last = slice(used, used + size), used + size - 1
-        lead = a or b  # coefficient of the highest power
-        through = b2 / a if a else b1 / b
-        A[last], B[last] = C / lead, D / lead  # u of this section is y of the one before
-        A[last, rows] = (-c / a, -b / a) if a else (-c / b,)
-        if a:
-            A[used, last] = 1.0
-        C, D = through * C, through * D
-        C[rows] = (b0 - through * c, b1 - through * b) if a else (b0 - through * c,)
-        used += size
-    return A, B, C, D
-
-
-def _sections(rows: np.ndarray, unit: float) -> list[tuple[float, float, float]]:
-    """Factors as quadratics, first-order ones multiplied in pairs, at most one of first order left, at the end.
-
-    With both lists in this order no numerator section has a higher degree than its denominator.
-    """
-    scaled = [(a / unit**2, b / unit, c) for a, b, c in rows]
-    quadratics = [row for row in scaled if row[0]]
-    linear = [row for row in scaled if not row[0]]
-    while len(linear) > 1:
-        (_, b1, c1), (_, b2, c2) = linear.pop(0), linear.pop(0)
-        quadratics.append((b1 * b2, b1 * c2 + b2 * c1, c1 * c2))
-    return quadratics + linear

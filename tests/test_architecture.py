@@ -11,7 +11,7 @@ PAGES = sorted((ROOT / "pages").rglob("*.py"))
 ORDER = [
     {"errors"},
     {"checks"},
-    {"factors", "polynomials"},
+    {"factors", "polynomials", "realisation"},
     {"plant", "models", "controllers"},
     {"exact", "parse", "notation", "plant_step", "simc", "loop"},
     {"reduction", "dynamics", "zeros", "zeros_1998", "split", "story", "advice"},
