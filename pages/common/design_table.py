@@ -52,7 +52,10 @@ def design_table(studies: list[tuple[str, Study]]) -> None:
     """One column a design, present first; a loop that is not stable has no figures."""
     columns = {name: facts(each) for name, each in studies}
     rows = [{"": label} | {name: each.get(label, "–") for name, each in columns.items()} for label in LABELS]
-    st.dataframe(rows, hide_index=True, width="content", height="content", key="designs")
+    wide = {"": st.column_config.TextColumn(width="medium")}
+    st.dataframe(
+        rows, hide_index=True, width="content", height="content", row_height=27, column_config=wide, key="designs"
+    )
     pins = state.value("pins")
     if not pins:
         st.caption("Pin a design to compare it with the next: up to four, overlaid in the figures and listed here.")

@@ -10,7 +10,7 @@ from pages.common.symbols import symbols
 from simc_core.advice import advice
 from simc_core.errors import NotReducible, SimcError
 from simc_core.notation import number
-from simc_core.poles import dominant_poles
+from simc_core.poles import ClosedLoopPole, dominant_poles
 
 STYLE = """<style>
 .st-key-guards [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
@@ -45,21 +45,21 @@ def show(study: Study) -> None:
 def poles(study: Study) -> None:
     """Dominant closed-loop poles with their damping."""
     with st.expander("Dominant closed-loop poles"):
-        st.dataframe(
-            [pole_row(pole) for pole in dominant_poles(study.loop) if pole.imag >= 0], hide_index=True, width="content"
-        )
+        rows = [pole_row(pole) for pole in dominant_poles(study.loop)]
+        st.dataframe(rows, hide_index=True, width="content")
         st.caption(
-            "Roots of $1 + L(s) = 0$; dead time makes infinitely many, these are the rightmost. "
-            "Damping $\\zeta = -\\mathrm{Re}\\,s/|s|$."
+            "Roots of $1 + L(s) = 0$, the rightmost of infinitely many; damping $\\zeta = -\\mathrm{Re}\\,s/|s|$. "
+            "A pole that a zero of the controller hides from set-point steps is still excited by load disturbances."
         )
 
 
-def pole_row(pole: complex) -> dict[str, str]:
+def pole_row(pole: ClosedLoopPole) -> dict[str, str]:
     """A line of the table of poles."""
-    size = abs(pole)
+    s = pole.s
     return {
-        "pole": number(pole.real) + (f" ± {number(pole.imag)} i" if pole.imag else ""),
-        "damping ζ": number(-pole.real / size) if size else "–",
-        "frequency |s|": number(size),
-        "time constant": number(-1 / pole.real) if pole.real < 0 else "grows",
+        "pole": number(s.real) + (f" ± {number(s.imag)} i" if s.imag else ""),
+        "damping ζ": number(pole.zeta),
+        "frequency |s|": number(pole.omega_n),
+        "time constant": number(-1 / s.real) if s.real < 0 else "does not decay",
+        "hidden from r": "yes" if pole.cancelled else "",
     }

@@ -29,8 +29,7 @@ def nyquist_figure(
     traces = [trace for pair in circles for trace in pair]
     if margins.stable:
         traces += [*_ms_circle(margins), *_mt_circle(margins.Mt)]
-    found = [_curve(name, record, position) for position, (name, record) in enumerate(curves)]
-    traces += [trace | {"showlegend": len(curves) > 1} for trace in reversed(found)]
+    traces += reversed([_curve(name, record, position) for position, (name, record) in enumerate(curves)])
     traces.append(
         palette.marker(-1, 0, "−1", palette.NEUTRAL, "critical point", "bottom left", hoverinfo="skip")
         | {
@@ -72,6 +71,7 @@ def _curve(name: str, record: FrequencyResponse, position: int) -> Trace:
         name,
         *palette.shade(palette.Y, position),
         customdata=record.omega,
+        showlegend=False,  # the time responses name the designs
         hovertemplate="ω = %{customdata:.4g}<br>L = %{x:.4g} %{y:+.4g} j",
     )
 

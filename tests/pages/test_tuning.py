@@ -1,0 +1,177 @@
+"""Tuning page: what it says, and what it must not say, without a browser."""
+
+import json
+
+import pytest
+
+from .tools import address, run_page, texts
+
+EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1
+FIGURES = 5  # y, u, Nyquist, |S| and |T|, Bode of L
+
+
+def tuned(**parameters):
+    return run_page("tuning", plant=EXAMPLE, **parameters)
+
+
+def copied(app):
+    """The settings as the copy button gives them, as numbers; the link in the sidebar is another code element."""
+    (text,) = [code.value for code in app.code if " = " in code.value]
+    return {name: float(value) for name, value in (line.split(" = ") for line in text.splitlines())}
+
+
+def strip(app):
+    (html,) = [item.proto.body for item in app.get("html") if '<div class="strip' in item.proto.body]
+    return html
+
+
+def specs(app):
+    return [json.loads(chart.proto.spec) for chart in app.get("plotly_chart")]
+
+
+def test_the_pi_controller_of_the_literature_is_on_the_screen():
+    app = tuned()
+    settings = copied(app)
+    assert settings["Kc"] == pytest.approx(0.57, abs=0.005)  # [V06] example 1
+    assert settings["tau_I"] == pytest.approx(8)
+    assert "0.5714" in texts(app)
+    assert len(specs(app)) == FIGURES
+
+
+def test_the_pid_controller_of_the_literature_is_on_the_screen():
+    settings = copied(tuned(order="2", form="ideal"))
+    assert settings["Kc"] == pytest.approx(1.38, abs=0.005)  # [V06] example 1, ideal form
+    assert settings["tau_I"] == pytest.approx(11)
+    assert settings["tau_D"] == pytest.approx(2.73, abs=0.005)
+
+
+def test_all_three_forms_describe_one_controller():
+    series = copied(tuned(order="2"))
+    parallel = copied(tuned(order="2", form="parallel"))
+    assert parallel["Kp"] == pytest.approx(series["Kc"] * (1 + series["tau_D"] / series["tau_I"]))
+    assert parallel["Ki"] == pytest.approx(series["Kc"] / series["tau_I"])
+    assert parallel["Kd"] == pytest.approx(series["Kc"] * series["tau_D"])
+
+
+def test_the_exact_margins_of_a_first_order_plant_are_read():
+    html = strip(run_page("tuning", plant="2 exp(-s)/(8s+1)", tau_c="1"))
+    for value in ("1.59", "3.14", "61.4", "2.14"):  # theory.md sect. 3: Ms, GM = pi, PM, delay margin
+        assert f"<b>{value}</b>" in html
+    assert "calm" in html
+
+
+@pytest.mark.parametrize(("tau_c", "band"), [("14", "calm"), ("4.5", "attention"), ("1", "alarm")])
+def test_ms_is_named_by_its_band_in_words(tau_c, band):
+    html = strip(tuned(tau_c=tau_c))
+    assert f'class="strip {band}"' in html
+    assert f"<span>{band}" in html
+
+
+def test_a_loop_that_is_not_stable_shows_no_margins_and_no_metrics():
+    app = tuned(order="2", tau_c="0.001", filter="3")  # two poles in the right half plane
+    html = strip(app)
+    assert "not stable" in html
+    assert not any(word in html for word in ("margin GM", "IAE", "Overshoot", "title="))
+    assert "not stable" in "\n".join(error.value for error in app.error)
+    for spec in specs(app):
+        assert "not stable" in spec["layout"]["annotations"][0]["text"]
+        shown = [text for trace in spec["data"] for text in trace.get("text", [])]
+        assert not [text for text in shown if text.startswith(("Ms ", "Mt ", "GM", "PM", "delay"))]
+
+
+def test_the_slider_the_exact_number_and_the_presets_set_one_tau_c():
+    app = tuned()
+    assert app.select_slider(key="tau_c_slider").value == 1.0
+    app.number_input(key="tau_c_exact").set_value(9.25).run()
+    assert address(app)["tau_c"] == "9.25"
+    assert copied(app)["Kc"] == pytest.approx(8 / (9.25 + 7))
+    app.button(key="preset_moderate").click().run()
+    assert float(address(app)["tau_c"]) == pytest.approx(56)  # max(tau1, 8 theta)
+    app.select_slider(key="tau_c_slider").set_value(0.1).run()
+    assert app.number_input(key="tau_c_exact").value == pytest.approx(0.7)
+    app.button(key="preset_tight").click().run()
+    assert "tau_c" not in address(app)
+    assert copied(app)["Kc"] == pytest.approx(8 / 14)
+
+
+def test_a_pinned_design_stays_what_it_was_and_is_drawn_and_listed():
+    app = tuned()
+    app.button(key="pin").click().run()
+    app.number_input(key="tau_c_exact").set_value(20.0).run()
+    (table,) = [frame.value for frame in app.dataframe if "present" in frame.value]
+    values = table.set_index("")
+    assert values.loc["τc", "A"] == "7"
+    assert values.loc["τc", "present"] == "20"
+    assert float(values.loc["Kp", "A"]) == pytest.approx(0.5714)
+    names = {trace["name"] for trace in specs(app)[0]["data"]}
+    assert names == {"r", "present", "A"}
+    app.button(key="unpin_0").click().run()
+    assert "pins" not in address(app)
+
+
+def test_four_designs_are_enough():
+    app = tuned()
+    for tau_c in (8.0, 9.0, 10.0, 11.0):
+        app.number_input(key="tau_c_exact").set_value(tau_c).run()
+        app.button(key="pin").click().run()
+    assert app.button(key="pin").disabled
+    assert len(address(app)["pins"].split("!")) == 4
+
+
+def test_the_same_design_is_not_pinned_twice():
+    app = tuned()
+    app.button(key="pin").click().run()
+    app.button(key="pin").click().run()
+    assert len(address(app)["pins"].split("!")) == 1
+
+
+def test_derivative_action_without_a_filter_is_called_by_its_name():
+    assert "noise gain" in texts(tuned(order="2"))
+    assert "noise gain $K_d$/$\\tau_F$ = 7.5" in texts(tuned(order="2", filter="0.1"))
+
+
+def test_the_set_point_weight_changes_the_response_and_not_the_margins():
+    full, half = tuned(), tuned(b="0.5")
+    assert "Ms" in strip(full)
+    margins = [strip(app).split("IAE")[0] for app in (full, half)]
+    assert margins[0] == margins[1]
+    assert strip(full) != strip(half)
+
+
+@pytest.mark.parametrize(
+    ("plant", "words"),
+    [
+        ("1/(s^2+0.6s+1)/(s^2+0.2s+1)", "not cover"),
+        ("exp(-s)/s^3", "not cover"),
+        ("exp(-6s)/(10s-1)", "a θ must be < 0.5"),
+        ("1/(s^2+1)", "ζ must be > 0"),
+    ],
+)
+def test_what_the_rules_do_not_cover_is_said_in_words(plant, words):
+    app = run_page("tuning", plant=plant)
+    assert words in texts(app)
+    assert not app.get("plotly_chart")
+
+
+@pytest.mark.parametrize(
+    "plant",
+    [
+        "3 exp(-2s)",
+        "exp(-s)/s",
+        "exp(-s)/s^2",
+        "1/(5s+1)",
+        "exp(-s)/(20s-1)",
+        "(1-2s)/((10s+1)(6s+1)(s+1))",
+        "-2exp(-s)/(5s+1)",
+    ],
+)
+@pytest.mark.parametrize("form", ["series", "ideal", "parallel"])
+def test_every_kind_of_model_has_a_page(plant, form):
+    app = run_page("tuning", plant=plant, order="2", form=form)
+    assert len(specs(app)) == FIGURES
+
+
+def test_poles_are_listed_with_their_damping():
+    table = next(frame.value for frame in tuned().dataframe if "damping ζ" in frame.value)
+    assert len(table) >= 2
+    assert all(0 < float(zeta) <= 1 for zeta in table["damping ζ"])
