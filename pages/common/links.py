@@ -58,12 +58,13 @@ def query(design: Design) -> str:
     return urlencode(encode(design), quote_via=quote, safe="()*^/,~!")
 
 
-def decode(parameters: Mapping[str, str], start: Design) -> tuple[Design, list[Ignored]]:
-    """`start` with everything changed that the parameters say, and what could not be used.
+def decode(parameters: Mapping[str, str]) -> tuple[Design, list[Ignored]]:
+    """The design that the parameters say, and what of them could not be used.
 
-    Parameters are taken one by one: a bad one leaves its field as it was and does not spoil the others.
+    What they do not mention has its default, whatever was there before: a link always opens the same design.
+    Parameters are taken one by one: a bad one leaves the default and does not spoil the others.
     """
-    design, ignored = start, []
+    design, ignored = Design(), []
     for name, value in parameters.items():
         try:
             design = _changed(design, name, value)

@@ -33,5 +33,5 @@ def load(data: bytes) -> tuple[Design | None, str]:
         return None, '"design" must be an object of texts'
     if "plant" not in fields:
         return None, '"design" must hold a plant'
-    design, ignored = links.decode(fields, Design())
+    design, ignored = links.decode(fields)
     return (None, "; ".join(map(str, ignored))) if ignored else (design, "")

@@ -29,7 +29,7 @@ def begin() -> Design:
     """Read the address if it is new, then make it show the design. May be called more than once a run."""
     given = st.query_params.to_dict()
     if given and given != st.session_state.get("address") and not _late(given):
-        design, ignored = links.decode(given, design_now())
+        design, ignored = links.decode(given)
         st.session_state["design"] = design
         st.session_state["ignored"] = ignored
     _show_in_address()

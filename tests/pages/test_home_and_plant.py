@@ -112,6 +112,14 @@ def test_nonsense_in_a_link_is_named_and_the_rest_taken():
     assert "colour" not in texts(app)
 
 
+def test_another_link_in_the_same_session_opens_what_it_says_and_nothing_of_the_former():
+    app = run_page("plant", plant="2/(5s+1)", tau_c="3", b="0.5")
+    app.query_params.clear()
+    app.query_params.update({"plant": "3/(4s+1)", "order": "2"})
+    app.run()
+    assert address(app) == {"plant": "3/(4 s + 1)", "order": "2"}
+
+
 def test_state_survives_the_way_through_the_pages():
     app = run_app(plant="2 exp(-s)/(10 s + 1)", tau_c="3", b="0.5")
     for name in PLACES[1:]:
