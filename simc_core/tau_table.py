@@ -1,0 +1,108 @@
+"""A table over tau_c that is read between its rows: the instrument that moves while it is dragged.
+
+Rows lie on a grid in x = ln tau_c. Between rows a curve is the Lagrange polynomial through up to four of them. It never
+goes across a kink, where tau_I = min(tau1, 4 (tau_c + theta)) changes branch: kinks are rows, and stencils stop there.
+Dead time does not depend on tau_c, so jumps of a response stay at their instants and every point of it is a smooth
+function of x, stable or not. L is read likewise; S and T follow from it exactly.
+
+pages/common/live/table.js does the same reading in the browser; tests/browser/test_live_table.py holds them together.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.models import FirstOrderDelay, Model, SecondOrderDelay
+
+PER_DECADE = 20
+STENCIL = 4
+TOLERANCE = 5e-4  # of a curve's range, at the midpoints: a quarter of what the reader is promised
+MOST_ROWS = 480
+
+Curves = Sequence[np.ndarray]  # each of shape (rows, points)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rows:
+    """x: ln tau_c, increasing, shape (n,).   breaks: rows at which stencils stop, first and last included."""
+
+    x: np.ndarray
+    breaks: tuple[int, ...]
+
+    @property
+    def tau_c(self) -> np.ndarray:
+        """tau_c of the rows."""
+        return np.exp(self.x)
+
+
+def first_rows(low: float, high: float, kinks: Sequence[float], per_decade: int = PER_DECADE) -> Rows:
+    """An even grid from low to high, kinks between them among its rows."""
+    edges = [math.log(tau_c) for tau_c in (low, *sorted(tau_c for tau_c in kinks if low < tau_c < high), high)]
+    parts = []
+    for begin, end in zip(edges, edges[1:], strict=False):
+        count = max(STENCIL - 1, math.ceil((end - begin) / math.log(10) * per_decade))
+        parts.append(np.linspace(begin, end, count + 1)[:-1])
+    x = np.concatenate([*parts, edges[-1:]])
+    return Rows(x, tuple(int(at) for at in np.searchsorted(x, edges)))
+
+
+def kinks(model: Model) -> list[float]:
+    """tau_c > 0 at which the SIMC settings of `model` change branch: 4 (tau_c + theta) = tau1."""
+    match model:
+        case FirstOrderDelay() | SecondOrderDelay():
+            tau_c = model.tau1 / 4 - model.theta
+            return [tau_c] if tau_c > 0 else []
+    return []
+
+
+def stencil(rows: Rows, x: float) -> tuple[int, np.ndarray]:
+    """First row and weights of the rows from there on, for reading at x; weights sum to 1."""
+    i = min(max(int(np.searchsorted(rows.x, x)) - 1, 0), len(rows.x) - 2)
+    section = max(b for b in range(len(rows.breaks) - 1) if rows.breaks[b] <= i)
+    low, high = rows.breaks[section : section + 2]
+    count = min(STENCIL, high - low + 1)
+    first = max(low, min(i - 1, high - count + 1))
+    nodes = rows.x[first : first + count]
+    weights = [np.prod([(x - m) / (node - m) for m in nodes if m != node]) for node in nodes]
+    return first, np.array(weights)
+
+
+def read(rows: Rows, curves: np.ndarray, x: float) -> np.ndarray:
+    """The curve at x, shape (points,), from curves of shape (rows, points)."""
+    first, weights = stencil(rows, x)
+    return weights @ curves[first : first + len(weights)]
+
+
+def refined(rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: float = TOLERANCE) -> Rows:
+    """Rows between which every curve is read to `tolerance` of its range, as checked at all midpoints.
+
+    compute: from tau_c, shape (m,), to the curves there. An interval that fails is halved, and its neighbours, which
+    share its stencil, are looked at again. At MOST_ROWS it ends.
+    """
+    values = compute(rows.tau_c)
+    suspects = np.arange(len(rows.x) - 1)
+    while len(suspects) and len(rows.x) < MOST_ROWS:
+        middle = (rows.x[suspects] + rows.x[suspects + 1]) / 2
+        exact = compute(np.exp(middle))
+        wrong = np.array([_error(rows, values, x, [each[i] for each in exact]) > tolerance for i, x in enumerate(middle)])
+        if not wrong.any():
+            break
+        after = suspects[wrong] + 1
+        rows_x = np.insert(rows.x, after, middle[wrong])
+        breaks = tuple(int(at + np.sum(after <= at)) for at in rows.breaks)
+        values = [np.insert(each, after, new[wrong], axis=0) for each, new in zip(values, exact, strict=True)]
+        inserted = after + np.arange(len(after))
+        rows = Rows(rows_x, breaks)
+        suspects = np.unique(np.concatenate([inserted - 1, inserted]))
+    return rows
+
+
+def _error(rows: Rows, values: Curves, x: float, exact: Sequence[np.ndarray]) -> float:
+    """Largest difference between what is read at x and the exact curve, over the range of that curve."""
+    worst = 0.0
+    for curves, true in zip(values, exact, strict=True):
+        span = float(np.ptp(true)) or 1.0
+        worst = max(worst, float(np.max(np.abs(read(rows, curves, x) - true))) / span)
+    return worst
