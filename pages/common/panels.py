@@ -14,6 +14,7 @@ from simc_core.figures import (
 )
 from simc_core.figures.curves import bode_curve
 from simc_core.margins import crossings
+from simc_core.notation import number
 
 HEIGHT, TALL = 250, 480  # px
 PANELS = ("y", "u", "Nyquist", "|S| |T|")
@@ -47,6 +48,11 @@ def panels(studies: list[tuple[str, Study]]) -> None:
         for key, title, figure in zip(KEYS, ALT, figures, strict=True):
             with st.container(key=f"panel_{key}"):
                 show(figure, key, title)
+    start = times[0][1].t[times[0][1].d != 0][0]
+    st.caption(
+        f"Unit step of the set point at t = 0, unit step of the load at the plant input at t = {number(start)}; "
+        "time in the unit of your time constants. The loop is closed round the full plant."
+    )
 
 
 def open_loop(studies: list[tuple[str, Study]]) -> None:

@@ -1,6 +1,7 @@
 """The strip of figures that decide: Ms first and largest, its band in words and colour."""
 
 import math
+import re
 from dataclasses import dataclass
 from html import escape
 
@@ -18,7 +19,7 @@ STYLE = f"""<style>
 .strip > div {{background: var(--st-background-color); padding: 0.3rem 0.6rem; line-height: 1.25; min-width: 0}}
 .strip small {{display: block; font-size: 0.75rem; opacity: 0.75; white-space: nowrap; overflow: hidden;
   text-overflow: ellipsis}}
-.strip b {{font-size: 1.1rem; font-weight: 600; white-space: nowrap}}
+.strip b {{font-size: 1.05rem; font-weight: 600; white-space: nowrap}}
 .strip i {{font-style: normal; font-size: 0.8rem; opacity: 0.75}}
 .strip .first {{grid-row: span 2; border-left: 6px solid var(--band); display: flex; flex-direction: column;
   justify-content: center}}
@@ -31,6 +32,20 @@ STYLE = f"""<style>
   .strip .first {{grid-row: auto; grid-column: 1 / -1}}
 }}
 </style>"""
+
+
+MEANINGS = {
+    "Ms": "Ms = max |1/(1+L)|: 1/Ms is the smallest distance of L from −1; below 1.7 is usual, 2 the limit [SK03]",
+    "Mt": "Mt = max |L/(1+L)|: how much a set point is amplified at worst",
+    "Gain": "factor on the plant gain at which the loop becomes unstable",
+    "GM": "factors on the plant gain, downwards and upwards, at which the loop becomes unstable",
+    "Phase": "phase the loop may lose at |L| = 1 before it becomes unstable",
+    "Delay": "dead time that may be added before the loop becomes unstable, in your time unit",
+    "IAE": "integral of |r − y| after a unit step, over all time",
+    "TV": "total variation of u, the wear of the actuator, after a unit step",
+    "Overshoot": "of y beyond a unit step of the set point",
+    "Settling": "time until y stays within 2 % of the step",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +72,9 @@ def strip_html(study: Study) -> str:
         )
     band, words = band_of(study.margins.Ms)
     Ms = _reading("Ms, peak of |S|", study.margins.Ms)
-    first = f'<div class="first" title="{Ms.exact}"><small>{Ms.label}</small><b>{Ms.text}</b><span>{words}</span></div>'
+    first = (
+        f'<div class="first" title="{_hover(Ms)}"><small>{Ms.label}</small><b>{Ms.text}</b><span>{words}</span></div>'
+    )
     cells = "".join(_cell(cell) for cell in readings(study))
     return f'<div class="strip {band}" role="status" aria-label="Figures that decide">{first}{cells}</div>'
 
@@ -65,9 +82,9 @@ def strip_html(study: Study) -> str:
 def readings(study: Study) -> list[Reading]:
     """All cells after Ms, row by row. The loop must be stable."""
     judged, metrics = study.margins, study.performance
-    lower = f"lower {number(judged.GM_lower, DIGITS)}" if judged.GM_lower > 0 else ""
+    lower = judged.GM_lower > 0
     return [
-        _reading("Gain margin GM", judged.GM, lower),
+        _pair("GM lower · upper", judged.GM_lower, judged.GM) if lower else _reading("Gain margin GM", judged.GM),
         _reading("Phase margin PM", judged.PM_deg, "°"),
         _reading("Delay margin", judged.delay_margin),
         _reading("IAE set point", metrics.setpoint.IAE),
@@ -89,9 +106,15 @@ def band_of(Ms: float) -> tuple[str, str]:
     return "alarm", "alarm: too close to −1 (> 2.0)"
 
 
+def _hover(cell: Reading) -> str:
+    """The exact value, and what it is."""
+    meaning = MEANINGS[re.match(r"\w+", cell.label)[0]]
+    return escape(f"{cell.exact}\n{meaning}")
+
+
 def _cell(cell: Reading) -> str:
     label = escape(cell.label)
-    return f'<div title="{escape(cell.exact)}"><small>{label}</small><b>{cell.text}</b> <i>{cell.more}</i></div>'
+    return f'<div title="{_hover(cell)}"><small>{label}</small><b>{cell.text}</b> <i>{cell.more}</i></div>'
 
 
 def _reading(label: str, value: float, more: str = "") -> Reading:

@@ -35,11 +35,11 @@ def choices() -> None:
     order, h, rules = st.columns([3, 2, 4], vertical_alignment="bottom")
     order.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
     h.number_input(
-        "Sampling period h",
+        "Sampling h",
         0.0,
         1e9,
         format="%.4g",
-        help="Of a digital controller; half of it counts as dead time. 0: continuous.",
+        help="Sampling period of a digital controller; half of it counts as dead time. 0: continuous.",
         **state.bound("h"),
     )
     rules.segmented_control(
@@ -126,4 +126,9 @@ def numbers(compared: ModelError) -> None:
             f"{latex_number(compared.omega_used, 3)}$, limit 1 [RMS86 eq. 10]."
         )
     )
+    if compared.error[0] >= 1:
+        words = (
+            "**Made for fast control.** The model keeps the beginning of the response, not its steady state: the rules "
+            "for zeros hold at the frequencies of the tight loop. The tuning page judges the loop round the full plant"
+        )
     place(words + (share or ": the loop round the model itself is not stable."))

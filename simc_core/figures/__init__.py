@@ -3,6 +3,6 @@
 from simc_core.figures.budget import budget_figure
 from simc_core.figures.frequency import bode_figure, model_error_figure, open_loop_figure, sensitivity_figure
 from simc_core.figures.nyquist import nyquist_figure
-from simc_core.figures.palette import Figure, blank, config
+from simc_core.figures.palette import Figure, config
 from simc_core.figures.polezero import pole_zero_figure
 from simc_core.figures.time import input_figure, output_figure, plant_step_figure

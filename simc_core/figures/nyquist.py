@@ -18,7 +18,7 @@ REFERENCES = ((1.4, 122.0), (1.6, 90.0), (2.0, 52.0))  # Ms, and where the label
 LABEL = 0.14  # half length of the interruption, in units of L
 FLAT = 1e-6  # |Mt - 1| below this: the circle is a line to the eye
 VIEW_X, VIEW_Y = (-2.2, 0.7), (-1.4, 0.85)
-FARTHEST_LEFT = -8.0
+FARTHEST_LEFT = -4.0
 
 
 def nyquist_figure(

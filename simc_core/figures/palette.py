@@ -131,22 +131,18 @@ def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None
     }
 
 
-def note(text: str, color: str = ALARM) -> dict[str, Any]:
-    """An annotation across the figure, for what the curves themselves must not be taken for."""
+def note(text: str, background: str = ALARM) -> dict[str, Any]:
+    """A banner across the figure, for what the curves themselves must not be taken for."""
     return {
         "text": f"<b>{text}</b>",
         "xref": "paper",
         "yref": "paper",
         "x": 0.5,
-        "y": 0.97,
+        "y": 0.02,
         "xanchor": "center",
-        "yanchor": "top",
+        "yanchor": "bottom",
         "showarrow": False,
-        "font": {"size": 13, "color": color},
+        "font": {"size": 12, "color": "white"},
+        "bgcolor": background,
+        "borderpad": 3,
     }
-
-
-def blank(text: str, height: int | None = None) -> Figure:
-    """A figure that says why there is nothing to draw."""
-    hidden = {"visible": False}
-    return figure([], hidden, hidden, height, annotations=[note(text, NEUTRAL) | {"y": 0.5, "yanchor": "middle"}])

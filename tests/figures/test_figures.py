@@ -139,8 +139,13 @@ def test_both_gain_limits_of_a_double_integrating_loop_are_drawn():
     lower = trace(figure, "GM lower")
     assert lower["y"][1] == pytest.approx(1 / 0.165, rel=5e-3)  # theory.md sect. 3
     assert loop.L(1j * lower["x"][0]) == pytest.approx(-lower["y"][1], rel=1e-6)
-    left = figures.nyquist_figure([("present", record)], judged)["layout"]["xaxis"]["range"][0]
-    assert left < -1 / judged.GM_lower
+
+
+def test_the_lower_gain_limit_of_an_unstable_plant_is_in_sight():
+    loop = Loop(Plant(-1.0, 1.0, (-5.0,)), SeriesPid(2.5, 15.5))
+    record, judged = drawn(loop)
+    left, right = figures.nyquist_figure([("present", record)], judged)["layout"]["xaxis"]["range"]
+    assert left < -1 / judged.GM_lower < -1 < right
 
 
 def test_jumps_of_u_are_drawn_as_strokes_and_the_set_point_is_dashed():
