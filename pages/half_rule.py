@@ -2,17 +2,20 @@
 
 import streamlit as st
 
-from pages.common import guards, header, reduction_view
+from pages.common import guards, header, reduction_view, state
 from pages.common.study import study
+from simc_core.half_rule import half_rule
 
-design = header.show("half_rule")
+header.show("half_rule")
 with guards.spoken():
-    told, judged = st.columns([1, 1], gap="medium")
+    told, judged = st.columns(2, gap="medium")
     with told:
         reduction_view.choices()
-        present = study(design.plant, design.tuning)
-        reduction_view.story(present.reduction)
+        plant, tuning = state.plant(), state.tuning()
+        reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules)
+        reduction_view.story(reduction)
     with judged:
-        reduction_view.budget(present.reduction)
-        reduction_view.candidates(present.reduction)
-        reduction_view.comparison(present)
+        reduction_view.budget(reduction)
+        reduction_view.candidates(reduction)
+        with guards.spoken():  # a model may have no controller; its story is told all the same
+            reduction_view.comparison(study(plant, tuning))

@@ -84,3 +84,9 @@ def test_a_plant_that_is_not_covered_is_named_with_what_to_do(plant):
 def test_every_kind_of_model_has_a_page(plant):
     for chart in reduced(plant).get("plotly_chart"):
         assert json.loads(chart.proto.spec)["data"]
+
+
+def test_a_model_without_a_controller_is_told_all_the_same():
+    app = reduced("exp(-s)/(s^2+1)")
+    assert "G_r(s)" in said(app)
+    assert "ζ must be > 0" in app.error[0].value
