@@ -11,15 +11,18 @@ pages/common/live/table.js does the same reading in the browser; tests/browser/t
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
+from simc_core.errors import InvalidParameter
 from simc_core.models import FirstOrderDelay, Model, SecondOrderDelay
 
 PER_DECADE = 20
 STENCIL = 4
 TOLERANCE = 5e-4  # of a curve's range, at the midpoints: a quarter of what the reader is promised
 MOST_ROWS = 480
+NEAR = 1e-7
 
 Curves = Sequence[np.ndarray]  # each of shape (rows, points)
 
@@ -41,7 +44,7 @@ def first_rows(low: float, high: float, kinks: Sequence[float], per_decade: int 
     """An even grid from low to high, kinks between them among its rows."""
     edges = [math.log(tau_c) for tau_c in (low, *sorted(tau_c for tau_c in kinks if low < tau_c < high), high)]
     parts = []
-    for begin, end in zip(edges, edges[1:], strict=False):
+    for begin, end in pairwise(edges):
         count = max(STENCIL - 1, math.ceil((end - begin) / math.log(10) * per_decade))
         parts.append(np.linspace(begin, end, count + 1)[:-1])
     x = np.concatenate([*parts, edges[-1:]])
@@ -86,7 +89,9 @@ def refined(rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: floa
     while len(suspects) and len(rows.x) < MOST_ROWS:
         middle = (rows.x[suspects] + rows.x[suspects + 1]) / 2
         exact = compute(np.exp(middle))
-        wrong = np.array([_error(rows, values, x, [each[i] for each in exact]) > tolerance for i, x in enumerate(middle)])
+        wrong = np.array(
+            [_error(rows, values, x, [each[i] for each in exact]) > tolerance for i, x in enumerate(middle)]
+        )
         if not wrong.any():
             break
         after = suspects[wrong] + 1
@@ -97,6 +102,27 @@ def refined(rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: floa
         rows = Rows(rows_x, breaks)
         suspects = np.unique(np.concatenate([inserted - 1, inserted]))
     return rows
+
+
+def smallest(judge: Callable[[float], float], limit: float, low: float, high: float) -> float:
+    """Smallest tau_c in [low, high] with judge(tau_c) <= limit, to 1e-7; judge may be nan, which is above any limit.
+
+    The first row of a grid that keeps the limit is bracketed by the one before, and bisection does the rest.
+    Raises InvalidParameter where no row keeps it.
+    """
+    best = below = math.inf
+    for above in np.geomspace(low, high, math.ceil(PER_DECADE * math.log10(high / low)) + 1):
+        value = judge(above)
+        if value <= limit:
+            break
+        best, below = min(best, math.inf if math.isnan(value) else value), above
+    else:
+        raise InvalidParameter(f"Ms must be >= {best:.4g}, the least up to tau_c = {high:.4g}, got {limit:g}")
+    below = min(below, above)
+    while above / below > 1 + NEAR:
+        middle = math.sqrt(below * above)
+        below, above = (below, middle) if judge(middle) <= limit else (middle, above)
+    return float(above)
 
 
 def _error(rows: Rows, values: Curves, x: float, exact: Sequence[np.ndarray]) -> float:

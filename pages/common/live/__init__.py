@@ -1,0 +1,75 @@
+"""The live instrument: slider, figures and panels in the browser, exact numbers from here.
+
+While tau_c moves, the browser reads the table it holds (table.py, table.js) and asks nobody. On release the design
+changes, the script runs, and what it sends back replaces the numbers that were read between rows. Table and exact
+numbers travel apart: an unchanged table is a reference of a few bytes to what the browser has in its cache.
+uPlot draws (uplot.LICENSE); measured against plotly.js and a canvas of our own, see benchmarks/ui.py.
+"""
+
+from pathlib import Path
+
+import streamlit as st
+
+from pages.common import state
+from pages.common.live import table
+from pages.common.study import Study
+from simc_core.errors import InvalidParameter
+from simc_core.margins import margins
+from simc_core.plant import Plant
+from simc_core.tau_table import smallest
+
+HERE = Path(__file__).parent
+SCRIPTS = ("uplot.min.js", "table.js", "panel.js", "slider.js", "panels.js", "live.js")
+KEY = "live"
+
+
+def _text(*names: str) -> str:
+    return "\n".join((HERE / name).read_text(encoding="utf-8") for name in names)
+
+
+_instrument = st.components.v2.component(
+    "simc_live", html=_text("live.html"), css=_text("uplot.min.css", "live.css"), js=_text(*SCRIPTS)
+)
+_exact = st.components.v2.component("simc_live_exact", html="<span></span>", js=_text("exact.js"))
+
+
+def instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
+    """Slider, figures, panels and trade-off of the present design (first) with the pinned ones behind it."""
+    present, pins = studies[0][1], studies[1:]
+    of = table.subject(plant, present, state.value("form"))
+    on = table.bench(present)
+    message, name = _table(of, on, pins)
+    _instrument(key=KEY, data=message, on_release_change=_released)
+    refusal, answers = state.memory("live_refusal", str), state.memory("live_answers", int)
+    _exact(key=f"{KEY}_exact", data=table.exact(of, on, present, name, answers))
+    if refusal:
+        st.warning(refusal)
+
+
+def _table(of: table.Subject, on: table.Bench, pins: list[tuple[str, Study]]) -> tuple[bytes, str]:
+    """The table, kept as long as it serves: a release must not make it again."""
+    name = table.name_of(of, on, pins)
+    kept = state.memory("live_table", lambda: (b"", ""))
+    if kept[1] != name:
+        kept = (table.table(of, on, pins, name), name)
+        state.remember("live_table", kept)
+    state.remember("live_subject", of)
+    return kept
+
+
+def _released() -> None:
+    """The hand has let go: tau_c, or the Ms that tau_c is wanted for."""
+    release = state.widget(KEY)["release"]
+    state.remember("live_answers", int(release["n"]))
+    state.remember("live_refusal", "")
+    try:
+        state.change(tau_c=release["tau_c"] if "tau_c" in release else _for_Ms(float(release["Ms"])))
+    except InvalidParameter as error:
+        state.remember("live_refusal", str(error))
+
+
+def _for_Ms(limit: float) -> float:
+    """The smallest tau_c on the slider with Ms <= limit. Raises InvalidParameter where there is none."""
+    of = state.memory("live_subject", lambda: None)
+    low, high, *_ = table.bounds(of.model)
+    return smallest(lambda tau_c: margins(of.loop(tau_c)).Ms, limit, low, high)

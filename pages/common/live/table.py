@@ -1,0 +1,245 @@
+"""What the instrument is sent: a table over tau_c, and the exact numbers of one design. Pure: no streamlit."""
+
+import hashlib
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pages.common.design import Tuning
+from pages.common.live.packing import figures, pack
+from pages.common.study import Study, dressed
+from simc_core.controllers import Controller, IController
+from simc_core.errors import FormError
+from simc_core.grid import omega_grid
+from simc_core.loop import Loop, frequency_response
+from simc_core.margins import margins
+from simc_core.models import Model, UnstableDelay
+from simc_core.performance import performance
+from simc_core.plant import Plant
+from simc_core.simc import simc, tau_c_presets
+from simc_core.simulation import Scenario, simulate
+from simc_core.stability import stability
+from simc_core.tau_table import Rows, first_rows, kinks, refined
+
+SHORTEST, LONGEST = 0.1, 100.0  # of tau_c over theta, on the slider
+POINTS = 300
+LOAD_AT = 0.4  # of the horizon
+JUMPS = 12  # instants k theta after each step at which curves may break
+BEFORE = 1e-9  # relative: the left-hand side of a jump
+ROUND = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
+BISECTIONS = 30
+FIELDS = {"series": ("Kc", "tau_I", "tau_D"), "ideal": ("Kc", "tau_I", "tau_D"), "parallel": ("Kp", "Ki", "Kd")}
+CURVES = ("y", "u", "re", "im")
+FIGURES = (
+    "Ms",
+    "Mt",
+    "GM",
+    "GM_lower",
+    "PM_deg",
+    "delay_margin",
+    "IAE_setpoint",
+    "IAE_load",
+    "TV_setpoint",
+    "TV_load",
+    "overshoot",
+    "noise_gain",
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bench:
+    """The instants and frequencies everything is computed at, so that table, pins and exact curves share them."""
+
+    t: np.ndarray
+    load: float
+    omega: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What is tuned: everything but tau_c."""
+
+    plant: Plant
+    model: Model
+    tuning: Tuning
+    form: str
+
+    def controller(self, tau_c: float) -> Controller:
+        """SIMC at tau_c, with set-point weight and filter."""
+        return dressed(simc(self.model, tau_c), self.tuning)
+
+    def loop(self, tau_c: float) -> Loop:
+        """The loop round the full plant."""
+        return Loop(self.plant, self.controller(tau_c))
+
+
+def subject(plant: Plant, present: Study, form: str) -> Subject:
+    """The subject of the study; a form that does not exist for this controller gives way to the parallel one."""
+    try:
+        settings(present.controller, form)
+    except FormError:
+        form = "parallel"
+    return Subject(plant, present.model, replace(present.tuning, tau_c=None), form)
+
+
+def bench(present: Study) -> Bench:
+    """Instants and frequencies; the horizon is that of the present design, rounded up so that it seldom changes."""
+    end = rounded_up(float(simulate(present.loop, Scenario()).t[-1]))
+    load, theta = LOAD_AT * end, present.loop.plant.theta
+    breaks = np.array([start + k * theta for start in (0.0, load) for k in range(JUMPS + 1)])
+    breaks = breaks[(breaks > 0) & (breaks < end)]
+    t = np.unique(np.concatenate([np.linspace(0.0, end, POINTS + 1), breaks, breaks * (1 - BEFORE)]))
+    return Bench(t, load, omega_grid([present.loop.L]))
+
+
+def bounds(model: Model) -> tuple[float, float, float, str]:
+    """low, high of tau_c on the slider, the length of 1 on its scale, and what that is called."""
+    presets = tau_c_presets(model)
+    unit = model.theta or next(iter(presets.values()), 1.0)
+    high = max(LONGEST * unit, *presets.values(), 0.0)
+    return SHORTEST * unit, high, unit, "θ" if model.theta else ""
+
+
+def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) -> bytes:
+    """The table as bytes, under its name."""
+    low, high, unit, symbol = bounds(of.model)
+    fixed = isinstance(of.model, UnstableDelay)
+    rows = _rows(of, on, low, high, fixed)
+    tau_c = np.full(rows.x.shape, of.model.theta) if fixed else rows.tau_c
+    blocks = dict(zip(CURVES, curves(of, on, tau_c), strict=True))
+    loops = [of.loop(each) for each in tau_c]
+    judged = [judge(loop, on.omega) for loop in loops]
+    stable = np.array([not math.isnan(each["Ms"]) for each in judged])
+    names = list(settings(loops[0].controller, of.form))
+    header = {
+        "kind": "table",
+        "id": name,
+        "log_tau_c": rows.x.tolist(),
+        "breaks": rows.breaks,
+        "t": on.t.tolist(),
+        "load": on.load,
+        "omega": on.omega.tolist(),
+        "settings": names,
+        "metrics": FIGURES,
+        "unit": unit,
+        "symbol": symbol,
+        "low": low,
+        "high": high,
+        "fixed": fixed,
+        "unstable": unstable_ranges(rows.tau_c, stable, lambda each: stability(of.loop(each)).verdict == "stable"),
+        "presets": list(tau_c_presets(of.model).items()),
+        "pins": [{"name": letter, "metrics": figures(judge(each.loop, on.omega))} for letter, each in pins],
+        "y_cap": cap(blocks["y"][stable], 1.0),
+        "u_cap": cap(blocks["u"][stable], 1.0),
+    }
+    blocks["settings"] = np.array([list(settings(loop.controller, of.form).values()) for loop in loops])
+    blocks["metrics"] = np.array([[each[figure] for figure in FIGURES] for each in judged])
+    if pins:
+        pinned = zip(*[responses(each.loop, on) for _, each in pins], strict=True)
+        blocks |= {f"pin_{field}": np.array(rows) for field, rows in zip(CURVES, pinned, strict=True)}
+    return pack(header, blocks)
+
+
+def exact(of: Subject, on: Bench, present: Study, name: str, answers: int) -> bytes:
+    """The present design without interpolation. name: of the table it belongs to; answers: the release it answers."""
+    header = {
+        "kind": "exact",
+        "table": name,
+        "tau_c": present.tau_c,
+        "answers": answers,
+        "stable": present.stable,
+        "settings": settings(present.controller, of.form),
+        "metrics": figures(judge(present.loop, on.omega)),
+    }
+    return pack(header, dict(zip(CURVES, responses(present.loop, on), strict=True)))
+
+
+def curves(of: Subject, on: Bench, tau_c: np.ndarray) -> list[np.ndarray]:
+    """y, u, Re L, Im L, each of shape (n_tau_c, points)."""
+    each = [responses(of.loop(value), on) for value in tau_c]
+    return [np.array(column) for column in zip(*each, strict=True)]
+
+
+def responses(loop: Loop, on: Bench) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """y and u at the instants, Re L and Im L at the frequencies."""
+    course = simulate(loop, Scenario(disturbance_time=on.load, t_end=float(on.t[-1]), t=on.t))
+    L = loop.L(1j * on.omega)
+    return course.y, course.u, L.real, L.imag
+
+
+def judge(loop: Loop, omega: np.ndarray) -> dict[str, float]:
+    """FIGURES of the loop, all nan where it is not stable."""
+    judged = margins(loop)
+    if not judged.stable:
+        return dict.fromkeys(FIGURES, math.nan)
+    metrics = performance(loop)
+    of_margins = {name: getattr(judged, name) for name in FIGURES[:6]}
+    return of_margins | {
+        "IAE_setpoint": metrics.setpoint.IAE,
+        "IAE_load": metrics.disturbance.IAE,
+        "TV_setpoint": metrics.setpoint.TV,
+        "TV_load": metrics.disturbance.TV,
+        "overshoot": metrics.setpoint.overshoot,
+        "noise_gain": noise_gain(loop, omega),
+    }
+
+
+def noise_gain(loop: Loop, omega: np.ndarray) -> float:
+    """Largest |K S| from measurement noise to the input, at omega and in the limit; infinite for an unfiltered PID."""
+    form = loop.controller.to_parallel()
+    if form.Kd and not form.tau_F:
+        return math.inf
+    at_infinity = abs(form.Kd / form.tau_F + 0.0 if form.tau_F else form.Kp)
+    return max(float(np.max(np.abs(frequency_response(loop, omega).KS))), at_infinity)
+
+
+def settings(controller: Controller, form: str) -> dict[str, float]:
+    """The settings in the form, by name. Raises FormError."""
+    if isinstance(controller, IController):
+        return {"K_I": controller.K_I}
+    shown = {"series": controller.to_series, "ideal": controller.to_ideal, "parallel": controller.to_parallel}[form]()
+    return {name: getattr(shown, name) for name in FIELDS[form]}
+
+
+def unstable_ranges(
+    tau_c: np.ndarray, stable: np.ndarray, is_stable: Callable[[float], bool]
+) -> list[tuple[float, float]]:
+    """Ranges of tau_c without a stable loop; their ends by bisection between the rows, logarithmic."""
+    ends = [float(tau_c[0])] if not stable[0] else []
+    for i in np.flatnonzero(stable[1:] != stable[:-1]):
+        a, b = math.log(tau_c[i]), math.log(tau_c[i + 1])
+        for _ in range(BISECTIONS):
+            middle = (a + b) / 2
+            a, b = (middle, b) if is_stable(math.exp(middle)) == stable[i] else (a, middle)
+        ends.append(math.exp((a + b) / 2))
+    if not stable[-1]:
+        ends.append(float(tau_c[-1]))
+    return list(zip(ends[::2], ends[1::2], strict=True))
+
+
+def cap(responses: np.ndarray, room: float) -> tuple[float, float]:
+    """Limits that no axis goes beyond: what stable loops reach, and `room` times that span on either side."""
+    if not responses.size:
+        return (-10.0, 10.0)
+    low, high = min(float(responses.min()), 0.0), max(float(responses.max()), 1.0)
+    return (low - room * (high - low), high + room * (high - low))
+
+
+def rounded_up(value: float) -> float:
+    """The next of ROUND times a power of ten."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return power * next(step for step in ROUND if step * power >= value * (1 - 1e-9))
+
+
+def name_of(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]]) -> str:
+    """Same name, same table."""
+    what = (of, float(on.t[-1]), len(on.omega), float(on.omega[0]), float(on.omega[-1]), [p.tuning for _, p in pins])
+    return hashlib.sha256(repr(what).encode()).hexdigest()[:16]
+
+
+def _rows(of: Subject, on: Bench, low: float, high: float, fixed: bool) -> Rows:
+    if fixed:
+        return Rows(np.log([0.99 * of.model.theta, 1.01 * of.model.theta]), (0, 1))
+    return refined(first_rows(low, high, kinks(of.model)), lambda tau_c: curves(of, on, tau_c)[:2])
