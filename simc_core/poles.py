@@ -11,7 +11,6 @@ any power of N; Newton on 1 + L(s) = 0 takes them to full precision, and drops w
 a zero of the controller cancels are not in 1 + L: they are known exactly, and reported as well.
 """
 
-import math
 from collections import Counter
 from dataclasses import dataclass
 

@@ -1,0 +1,6 @@
+"""Time responses with exact dead time."""
+
+from simc_core.simulation.scenario import Scenario, TimeResponse
+from simc_core.simulation.simulate import simulate
+
+__all__ = ["Scenario", "TimeResponse", "simulate"]

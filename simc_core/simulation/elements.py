@@ -1,0 +1,91 @@
+"""Collocation elements: what a short stretch of time does to states and signals, as constant matrices.
+
+On an element of length h the states are a polynomial that satisfies x' = A x + B w + E v at the p Radau nodes
+0 < c_1 < ... < c_p = 1 (Radau IIA, stiffly accurate, Hairer and Wanner, Solving ODE II, IV.5), w its values there:
+
+    X_i = x_0 + h sum_j a_ij (A X_j + B w_j + E v)        a_ij = int_0^{c_i} l_j
+
+Elements after a jump are short and grow. Mode lambda is resolved to TOLERANCE where
+e^{Re lambda t} (|lambda| h e/(4 p))^p is: a Chebyshev expansion of e^{lambda h s} of p terms leaves about that much of what is left of the mode at t.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev, legendre
+
+from simc_core.errors import InvalidParameter
+from simc_core.simulation.system import DelaySystem
+
+P = 16  # nodes of an element
+TOLERANCE = 1e-14
+MOST_ELEMENTS = 4000
+
+
+def _radau_nodes(p: int) -> np.ndarray:
+    """Roots of P_{p-1}(x) - P_p(x) turned to (0, 1], the right Radau points."""
+    difference = np.zeros(p + 1)
+    difference[p - 1], difference[p] = 1.0, -1.0
+    roots = np.sort(legendre.legroots(difference).real)
+    slope, value = legendre.legder(difference), difference
+    for _ in range(3):
+        inner = roots[:-1]
+        roots[:-1] = inner - legendre.legval(inner, value) / legendre.legval(inner, slope)
+    roots[-1] = 1.0
+    return (roots + 1) / 2
+
+
+NODES = _radau_nodes(P)
+TO_CHEBYSHEV = np.linalg.inv(chebyshev.chebvander(2 * NODES - 1, P - 1))  # nodal values -> coefficients
+_INTEGRALS = np.array(
+    [chebyshev.chebval(2 * NODES - 1, chebyshev.chebint(np.eye(P)[j], lbnd=-1)) / 2 for j in range(P)]
+).T
+COLLOCATION = _INTEGRALS @ TO_CHEBYSHEV  # a_ij
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Element:
+    """Linear maps of one element: columns are (x_0 (n), w at the nodes (m p), v (2)).
+
+    states: (p, n, n + m p + 2), the states at the nodes; the last node is the end.
+    """
+
+    states: np.ndarray
+
+
+def element(system: DelaySystem, h: float) -> Element:
+    """The element of length h."""
+    n, m = system.B.shape
+    known = np.zeros((P, n, n + m * P + 2))
+    known[:, :, :n] = np.eye(n)
+    for j in range(m):
+        known[:, :, n + j * P : n + (j + 1) * P] = h * np.einsum("ij,n->inj", COLLOCATION, system.B[:, j])
+    known[:, :, n + m * P :] = h * NODES[:, None, None] * system.E
+    matrix = np.eye(P * n) - h * np.kron(COLLOCATION, system.A)
+    solved = np.linalg.solve(matrix, known.reshape(P * n, -1)) if n else known.reshape(0, known.shape[2])
+    return Element(solved.reshape(P, n, -1))
+
+
+def mesh(A: np.ndarray, length: float) -> np.ndarray:
+    """Lengths of elements that fill `length` after a jump at its start; powers of two of it, growing."""
+    modes = np.linalg.eigvals(A) if len(A) else np.zeros(0)
+    size = np.abs(modes)
+    modes, size = modes[size * length > 1e-3], size[size * length > 1e-3]
+    if not len(modes):
+        return np.array([length])
+    reach = 4 * P / math.e * TOLERANCE ** (1 / P) / size
+    decay = np.maximum(-modes.real, 0.0) / P
+    ends, steps = 0.0, []
+    while ends < length * (1 - 1e-12):
+        with np.errstate(over="ignore"):
+            allowed = float(np.min(reach * np.exp(np.minimum(decay * ends, 700.0))))
+        step = length * 2.0 ** math.floor(math.log2(min(allowed / length, 1.0)))
+        while step > length - ends + 1e-12 * length:
+            step /= 2
+        steps.append(step)
+        ends += step
+        if len(steps) > MOST_ELEMENTS:
+            radians = float(np.max(size)) * length
+            raise InvalidParameter(f"the horizon must be at most about {4 * MOST_ELEMENTS} radians, got {radians:.3g}")
+    return np.array(steps)
