@@ -2,17 +2,20 @@
 
 import streamlit as st
 
-from pages.common import guards, header
+from pages.common import guards, header, live
 from pages.common.design_table import design_table, pin_button, pinned_studies
 from pages.common.panels import open_loop, panels
 from pages.common.readout import readout
 from pages.common.study import study
 from pages.common.tuning_widgets import settings, structure, tau_c_control
 
+VIEWS = ("Live", "Figures", "Bode of L", "Compare")
+
 design = header.show("tuning")
 with guards.spoken():
     present = study(design.plant, design.tuning)
-    controls, view = st.columns([4, 11], gap="medium")
+    with st.container(key="tuning"):
+        controls, view = st.columns([4, 11], gap="medium")
     with controls:
         tau_c_control(present.model, present.tau_c)
         structure()
@@ -21,12 +24,18 @@ with guards.spoken():
         guards.show(present)
     with view:
         studies = [("present", present), *pinned_studies(design.plant, design.pins)]
-        readout(present)
-        responses, bode, table = st.tabs(["Responses", "Bode of L", "Compare"], key="views")
-        with responses:
-            panels(studies)
-        with bode:
-            open_loop(studies)
-        with table:
-            design_table(studies)
-        guards.poles(present)
+        instrument, figures, bode, table = st.tabs(VIEWS, key="views", on_change="rerun")  # only the open one is made
+        if instrument.open:
+            with instrument:
+                live.instrument(design.plant, studies)
+        if figures.open:
+            with figures:
+                readout(present)
+                panels(studies)
+        if bode.open:
+            with bode:
+                open_loop(studies)
+        if table.open:
+            with table:
+                design_table(studies)
+                guards.poles(present)
