@@ -78,8 +78,8 @@ def read(rows: Rows, curves: np.ndarray, x: float) -> np.ndarray:
     return weights @ curves[first : first + len(weights)]
 
 
-def refined(rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: float = TOLERANCE) -> Rows:
-    """Rows between which every curve is read to `tolerance` of its range, as checked at all midpoints.
+def refined(rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: float = TOLERANCE) -> tuple[Rows, Curves]:
+    """Rows between which every curve is read to `tolerance` of its range, as checked at all midpoints, and the curves.
 
     compute: from tau_c, shape (m,), to the curves there. An interval that fails is halved, and its neighbours, which
     share its stencil, are looked at again. At MOST_ROWS it ends.
@@ -101,7 +101,7 @@ def refined(rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: floa
         inserted = after + np.arange(len(after))
         rows = Rows(rows_x, breaks)
         suspects = np.unique(np.concatenate([inserted - 1, inserted]))
-    return rows
+    return rows, values
 
 
 def smallest(judge: Callable[[float], float], limit: float, low: float, high: float) -> float:

@@ -19,6 +19,8 @@ from simc_core.models import Model, UnstableDelay
 from simc_core.plant import Plant
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
+from simc_core.simulation.steps import unit_steps
+from simc_core.simulation.system import closed_loop
 from simc_core.stability import stability
 from simc_core.tau_table import Rows, first_rows, kinks, refined
 
@@ -105,10 +107,15 @@ def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) 
     """The table as bytes, under its name."""
     low, high, unit, symbol = bounds(of.model)
     fixed = isinstance(of.model, UnstableDelay)
-    rows = _rows(of, on, low, high, fixed)
-    tau_c = np.full(rows.x.shape, of.model.theta) if fixed else rows.tau_c
-    blocks = dict(zip(CURVES, curves(of, on, tau_c), strict=True))
+    if fixed:  # the rule knows one tau_c: two rows of the same
+        rows, tau_c = Rows(np.log([0.99 * low, 1.01 * high]), (0, 1)), np.full(2, of.model.theta)
+        time_curves = _time_curves(of, on, tau_c)
+    else:
+        rows, time_curves = refined(first_rows(low, high, kinks(of.model)), lambda tau_c: _time_curves(of, on, tau_c))
+        tau_c = rows.tau_c
     loops = [of.loop(each) for each in tau_c]
+    L = np.array([loop.L(1j * on.omega) for loop in loops])
+    blocks = dict(zip(CURVES, (*time_curves, L.real, L.imag), strict=True))
     figures_of = [estimated(loop, on) for loop in loops]
     stable = np.array([not math.isnan(each["Ms"]) for each in figures_of])
     names = list(settings(loops[0].controller, of.form))
@@ -155,12 +162,6 @@ def exact(of: Subject, on: Bench, present: Study, name: str, answers: int) -> by
     return pack(header, dict(zip(CURVES, responses(present.loop, on), strict=True)))
 
 
-def curves(of: Subject, on: Bench, tau_c: np.ndarray) -> list[np.ndarray]:
-    """y, u, Re L, Im L, each of shape (n_tau_c, points)."""
-    each = [responses(of.loop(value), on) for value in tau_c]
-    return [np.array(column) for column in zip(*each, strict=True)]
-
-
 def responses(loop: Loop, on: Bench) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """y and u at the instants, Re L and Im L at the frequencies."""
     course = simulate(loop, Scenario(disturbance_time=on.load, t_end=float(on.t[-1]), t=on.t))
@@ -195,11 +196,10 @@ def estimated(loop: Loop, on: Bench) -> dict[str, float]:
     form, plant, end = loop.controller.to_parallel(), loop.plant, float(on.t[-1])
     t = np.union1d(np.linspace(0.0, end, POINTS), np.geomspace(end * 1e-4, end, POINTS))
     at_rest = 0.0 if plant.integrators else 1 / plant.k
-    course = simulate(loop, Scenario(disturbance=0.0, t_end=end, t=t))
-    first = _summed(t, 1 - course.y, course.u, at_rest, (at_rest - form.Kp * (form.b - 1)) / form.Ki)
-    load = simulate(loop, Scenario(setpoint=0.0, disturbance_time=0.0, t_end=end, t=t))
-    second = _summed(t, -load.y, load.u, -1.0, -1 / form.Ki)
-    overshoot = max(float(course.y.max()) - 1, 0.0)
+    (y, y_d), (u, u_d) = np.moveaxis(unit_steps(closed_loop(loop), end)(t), 0, 2)
+    first = _summed(t, 1 - y, u, at_rest, (at_rest - form.Kp * (form.b - 1)) / form.Ki)
+    second = _summed(t, -y_d, u_d, -1.0, -1 / form.Ki)
+    overshoot = max(float(y.max()) - 1, 0.0)
     return _figures(found, (first[0], second[0], first[1], second[1], overshoot), noise_gain(loop, on.omega))
 
 
@@ -267,7 +267,7 @@ def name_of(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]]) -> str:
     return hashlib.sha256(repr(what).encode()).hexdigest()[:16]
 
 
-def _rows(of: Subject, on: Bench, low: float, high: float, fixed: bool) -> Rows:
-    if fixed:
-        return Rows(np.log([0.99 * of.model.theta, 1.01 * of.model.theta]), (0, 1))
-    return refined(first_rows(low, high, kinks(of.model)), lambda tau_c: curves(of, on, tau_c)[:2])
+def _time_curves(of: Subject, on: Bench, tau_c: np.ndarray) -> list[np.ndarray]:
+    """y and u, each of shape (n_tau_c, points)."""
+    each = [responses(of.loop(value), on)[:2] for value in tau_c]
+    return [np.array(column) for column in zip(*each, strict=True)]
