@@ -3,8 +3,8 @@
     IAE = int |e|    ISE = int e^2    ITAE = int t |e|    TV = sum |change of u|, jumps included    e = r - y
 
 Zeros of e and extrema are bracketed on a fine grid in each piece and polished there; between them the polynomials are
-integrated exactly. The horizon is doubled until e and u have come to rest within REST of their largest change over the
-last quarter of it: what is left of a mode that decays at least that fast is below 1e-9 of the integrals.
+integrated exactly. The horizon is doubled until y and u stay within REST = 1e-9 of their largest value over the last
+quarter of it. The truncation error is what a decaying mode still adds behind that, REST times its time constant.
 """
 
 import math
@@ -15,16 +15,20 @@ from numpy.polynomial import chebyshev
 
 from simc_core.errors import NotStable
 from simc_core.loop import Loop
+from simc_core.simulation.elements import P
 from simc_core.simulation.pieces import Pieces, clenshaw
 from simc_core.simulation.simulate import settling_horizon
 from simc_core.simulation.steps import unit_steps
 from simc_core.simulation.system import closed_loop
 from simc_core.stability import stability
 
-REST = 1e-11
+REST = 1e-9
 MOST_DOUBLINGS = 12
+HORIZON = 6.0  # first horizon, in times to settle to 1 %
+NOISE = 1e-11  # of the largest value; a signal this small has come to rest, its signs are rounding
 SAMPLES = np.cos(np.pi * np.arange(32, -1, -1) / 32)  # where sign changes are looked for in a piece
-NEWTON = 40  # bisection steps: to the last bit
+NEWTON = 8
+VANDERMONDE = chebyshev.chebvander(SAMPLES, P - 1)
 SETTLING, RISE = 0.02, (0.1, 0.9)
 GAUSS_X, GAUSS_W = np.polynomial.legendre.leggauss(17)  # exact for e^2 of degree 30
 
@@ -76,7 +80,7 @@ def performance(loop: Loop) -> Performance:
 
 
 def _to_rest(loop: Loop) -> Pieces:
-    system, t_end = closed_loop(loop), 6 * settling_horizon(loop)
+    system, t_end = closed_loop(loop), HORIZON * settling_horizon(loop)
     for _ in range(MOST_DOUBLINGS):
         pieces = unit_steps(system, t_end)
         left, right = pieces.ends()
@@ -120,19 +124,29 @@ def _metrics(pieces: Pieces, column: int) -> StepMetrics:
     )
 
 
-def _roots(edges: np.ndarray, series: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Sign changes within pieces: piece and place x in (-1, 1), in order of time."""
-    values = series @ chebyshev.chebvander(SAMPLES, series.shape[1] - 1).T
-    values[np.abs(values) < 1e-14 * np.max(np.abs(values))] = 0.0  # rounding about rest crosses nothing
-    piece, at = np.nonzero(values[:, 1:] * values[:, :-1] < 0)
-    low, high = SAMPLES[at].copy(), SAMPLES[at + 1].copy()
-    sign = np.sign(values[piece, at])
-    own = series[piece]
+def _roots(series: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Sign changes within pieces: piece and place x in (-1, 1), in order of time.
+
+    A piece with |c_0| > sum |c_k| has none. The others are sampled, brackets polished by Newton kept inside them.
+    """
+    size = np.abs(series)
+    total = size.sum(axis=1)
+    able = np.flatnonzero((2 * size[:, 0] <= total) & (total > NOISE * np.max(total, initial=0.0)))
+    own = series[able]
+    values = own @ VANDERMONDE[:, : series.shape[1]].T
+    row, at = np.nonzero(values[:, 1:] * values[:, :-1] < 0)
+    own, low, high = own[row], SAMPLES[at], SAMPLES[at + 1]
+    first, last = values[row, at], values[row, at + 1]
+    slope = chebyshev.chebder(own, axis=1)
+    x = low - first * (high - low) / (last - first)
     for _ in range(NEWTON):
-        middle = (low + high) / 2
-        same = np.sign(clenshaw(own, middle)) == sign
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return piece, (low + high) / 2
+        f = clenshaw(own, x)
+        same = np.sign(f) == np.sign(first)
+        low, high = np.where(same, x, low), np.where(same, high, x)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = x - f / clenshaw(slope, x)
+        x = np.where((step >= low) & (step <= high), step, np.where(f == 0, x, (low + high) / 2))
+    return able[row], x
 
 
 def _absolute_integrals(edges: np.ndarray, e: np.ndarray) -> tuple[float, float]:
@@ -140,7 +154,7 @@ def _absolute_integrals(edges: np.ndarray, e: np.ndarray) -> tuple[float, float]
     half, left = np.diff(edges) / 2, edges[:-1]
     once = chebyshev.chebint(e, lbnd=-1, axis=1)
     twice = chebyshev.chebint(once, lbnd=-1, axis=1)
-    piece, x = _roots(edges, e)
+    piece, x = _roots(e)
     count = len(e)
     pieces = np.concatenate([np.arange(count), piece, np.arange(count)])
     places = np.concatenate([np.full(count, -1.0), x, np.ones(count)])
@@ -155,7 +169,7 @@ def _absolute_integrals(edges: np.ndarray, e: np.ndarray) -> tuple[float, float]
 
 def _extrema(edges: np.ndarray, series: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Times and values of local extrema and of both limits at all edges, in order of time."""
-    piece, x = _roots(edges, chebyshev.chebder(series, axis=1))
+    piece, x = _roots(chebyshev.chebder(series, axis=1))
     count = len(series)
     pieces = np.concatenate([np.arange(count), piece, np.arange(count)])
     places = np.concatenate([np.full(count, -1.0), x, np.ones(count)])
@@ -168,7 +182,7 @@ def _extrema(edges: np.ndarray, series: np.ndarray) -> tuple[np.ndarray, np.ndar
 def _crossings(edges: np.ndarray, series: np.ndarray, level: float) -> np.ndarray:
     shifted = series.copy()
     shifted[:, 0] -= level
-    piece, x = _roots(edges, shifted)
+    piece, x = _roots(shifted)
     inside = edges[piece] + np.diff(edges)[piece] * (x + 1) / 2
     signs = (-1.0) ** np.arange(series.shape[1])
     left, right = shifted @ signs, shifted.sum(axis=1)

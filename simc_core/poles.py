@@ -28,7 +28,7 @@ SETTLED = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class ClosedLoopPole:
-    """s: the pole, Im s >= 0 (its conjugate goes without saying). zeta = -Re s/|s|, omega_n = |s|; zeta 0 at the origin.
+    """s: the pole, Im s >= 0 (its conjugate is implied). zeta = -Re s/|s|, omega_n = |s|; zeta 0 at the origin.
 
     cancelled: a zero of the controller hides it from the set-point response; a load disturbance excites it.
     """

@@ -5,8 +5,8 @@ On an element of length h the states are a polynomial that satisfies x' = A x + 
 
     X_i = x_0 + h sum_j a_ij (A X_j + B w_j + E v)        a_ij = int_0^{c_i} l_j
 
-Elements after a jump are short and grow. Mode lambda is resolved to TOLERANCE where
-e^{Re lambda t} (|lambda| h e/(4 p))^p is: a Chebyshev expansion of e^{lambda h s} of p terms leaves about that much of what is left of the mode at t.
+Elements after a jump are short and grow. Mode lambda is resolved to TOLERANCE where e^{Re lambda t} (|lambda| h e/4p)^p
+is: a Chebyshev expansion of e^{lambda h s} of p terms leaves about that much of what is left of the mode at t.
 """
 
 import math

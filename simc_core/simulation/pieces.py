@@ -33,8 +33,9 @@ class Pieces:
 
 def clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Chebyshev series coefficients (n, p, ...) at x (n,) each: (n, ...)."""
-    x = x.reshape(x.shape + (1,) * (coefficients.ndim - 2))
-    one, two = np.zeros_like(coefficients[:, 0]), np.zeros_like(coefficients[:, 0])
-    for k in range(coefficients.shape[1] - 1, 0, -1):
-        one, two = coefficients[:, k] + 2 * x * one - two, one
-    return coefficients[:, 0] + x * one - two
+    x = 2 * x.reshape(x.shape + (1,) * (coefficients.ndim - 2))
+    series = np.moveaxis(coefficients, 1, 0)
+    one, two = series[-1], 0.0
+    for term in series[-2:0:-1]:
+        one, two = term + x * one - two, one
+    return series[0] + x / 2 * one - two if len(series) > 1 else series[0]

@@ -41,11 +41,12 @@ def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
     starts = np.array([0.0, begins])
     t, left = (scenario.t, None) if scenario.t is not None else _grid(pieces, heights, starts, t_end, scenario.points)
     outputs = sum(heights[i] * pieces(t - starts[i])[:, :, i] for i in range(2))
-    d = _step(t, begins, scenario.disturbance)
-    if left is not None and len(left):
+    r, d = _step(t, 0.0, scenario.setpoint), _step(t, begins, scenario.disturbance)
+    if left is not None:
         outputs[left] = sum(heights[i] * _left_limits(pieces, t[left] - starts[i])[:, :, i] for i in range(2))
+        r[left[t[left] == 0.0]] = 0.0
         d[left[t[left] == begins]] = 0.0
-    return TimeResponse(t, np.full(len(t), scenario.setpoint), d, outputs[:, 0], outputs[:, 1])
+    return TimeResponse(t, r, d, outputs[:, 0], outputs[:, 1])
 
 
 def times(loop: Loop, scenario: Scenario) -> tuple[float, float]:
@@ -95,8 +96,8 @@ def _step(t: np.ndarray, begins: float, height: float) -> np.ndarray:
 def _grid(pieces: Pieces, heights, starts, t_end: float, points: int) -> tuple[np.ndarray, np.ndarray]:
     """Instants with jumps twice, and the indices of those that mean the left limit."""
     t = np.linspace(0.0, t_end, points)
-    jumps = np.concatenate([jump_times(pieces, i) + starts[i] for i in range(2) if heights[i]] or [[]])
-    jumps = np.unique(jumps[(jumps > 0) & (jumps <= t_end)])[:MOST_JUMPS]
+    jumps = np.concatenate([starts, *(jump_times(pieces, i) + starts[i] for i in range(2) if heights[i])])
+    jumps = np.unique(jumps[jumps <= t_end])[:MOST_JUMPS]
     both = np.concatenate([t[~np.isin(t, jumps)], jumps, jumps])
     order = np.argsort(both, kind="stable")
     grid = both[order]

@@ -21,7 +21,7 @@ from simc_core.simulation.elements import TO_CHEBYSHEV, P, element, mesh
 from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.system import DelaySystem
 
-FEW = 64  # intervals that are simply stepped; more are doubled
+FEW = 4  # intervals per row of the matrix that are simply stepped; more are doubled
 MOST_INTERVALS = 20_000  # kept one by one
 EXACT_START = 512  # intervals kept one by one before long pieces are tried
 SMOOTH = 1e-12  # last coefficients of a long piece, relative to its largest
@@ -94,7 +94,7 @@ def _all(onwards: np.ndarray, start: np.ndarray, count: int) -> np.ndarray:
     states = np.empty((count, *start.shape))
     states[0] = start
     done = 1
-    while done < min(count, FEW):
+    while done < min(count, FEW * len(onwards)):
         states[done] = onwards @ states[done - 1]
         done += 1
     power = np.linalg.matrix_power(onwards, done) if done < count else onwards
@@ -120,9 +120,8 @@ def _expanded(outputs: np.ndarray, states: np.ndarray, lengths: np.ndarray, thet
 
 def _long(onwards, outputs, start, near: Pieces, intervals: int, theta: float) -> Pieces:
     """Long pieces behind the exact start, doubled where the coefficients allow it."""
-    offsets = np.round(EXACT_START / 4 * (1 - np.cos(np.pi * np.arange(P) / (P - 1)))).astype(
-        int
-    )  # 0 ... EXACT_START/2
+    places = (1 - np.cos(np.pi * np.arange(P) / (P - 1))) / 2  # Chebyshev points of [0, 1], in whole intervals below
+    offsets = np.round(EXACT_START / 2 * places).astype(int)
     begin = outputs[0]  # just after k theta
     back = np.linalg.inv(chebyshev.chebvander(2 * offsets / offsets[-1] - 1, P - 1))
     powers = [np.linalg.matrix_power(onwards, int(k)) for k in offsets]

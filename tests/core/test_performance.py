@@ -1,0 +1,91 @@
+"""Step metrics against published rows, closed forms and an independent quadrature."""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+from simc_core import IController, Loop, NotStable, ParallelPid, Plant, Scenario, SeriesPid, performance, simulate
+from tests.published import Published, select
+
+
+def with_PI_on_the_set_point(entry: Published) -> Loop:
+    """Kc (tau_I s + 1)/(tau_I s) [r - (tau_D s + 1)/(tau_F s + 1) y] in the weights b, c of the parallel form."""
+    loop = entry.loop
+    if not getattr(loop.controller, "tau_D", 0):
+        return loop
+    Kc, tau_F, form = loop.controller.Kc, loop.controller.tau_F, loop.controller.to_parallel()
+    return Loop(loop.plant, replace(loop.controller, b=(Kc + form.Ki * tau_F) / form.Kp, c=Kc * tau_F / form.Kd))
+
+
+@pytest.mark.parametrize("entry", select("-perf"))
+def test_the_performance_columns_of_the_2003_tables(entry):
+    got = performance(with_PI_on_the_set_point(entry))
+    columns = {
+        "S03-T3-1-perf": (got.setpoint.IAE, got.setpoint.TV),
+        "S03-T3-4-perf": (got.setpoint.IAE, got.setpoint.TV, got.disturbance.IAE),
+        "S03-T3-5-perf": (got.setpoint.IAE, got.disturbance.IAE, got.disturbance.TV),
+    }
+    every = (got.setpoint.IAE, got.setpoint.TV, got.disturbance.IAE, got.disturbance.TV)
+    for i, value in enumerate(columns.get(entry.id, every)):
+        assert value == entry.approx(i)
+
+
+def test_a_load_response_without_change_of_sign_has_IAE_tau_I_over_Kc():
+    """[SK03 sect. 6]: int e dt = tau_I/Kc for a unit step at the plant input."""
+    for plant, controller in (
+        (Plant(1, 1, integrators=1), SeriesPid(0.5, 8)),
+        (Plant(1, 1, (4,)), SeriesPid(2, 4)),
+        (Plant(1, 0, (1, 0.2)), SeriesPid(5.5, 0.8)),
+    ):
+        assert (
+            pytest.approx(controller.tau_I / controller.Kc, rel=1e-8)
+            == performance(Loop(plant, controller)).disturbance.IAE
+        )
+
+
+def test_a_first_order_loop_has_closed_form_metrics():
+    """L = 1/(T s) without dead time: e = e^{-t/T}; IAE T, ISE T/2, ITAE T^2, rise T ln 9, settling T ln 50."""
+    T = 3.0
+    got = performance(Loop(Plant(1), IController(1 / T))).setpoint
+    assert pytest.approx(T, rel=1e-8) == got.IAE
+    assert pytest.approx(T / 2, rel=1e-8) == got.ISE
+    assert pytest.approx(T**2, rel=1e-7) == got.ITAE
+    assert got.rise_time == pytest.approx(T * math.log(9), rel=1e-8)
+    assert got.settling_time == pytest.approx(T * math.log(50), rel=1e-8)
+    assert got.TV == pytest.approx(1, rel=1e-8)
+    assert got.overshoot == 0
+
+
+def test_a_second_order_loop_overshoots_as_the_textbook_says():
+    """T = 1/(s^2 + 2 zeta s + 1): overshoot exp(-pi zeta/sqrt(1 - zeta^2)) at t = pi/sqrt(1 - zeta^2)."""
+    zeta = 0.3
+    got = performance(Loop(Plant(1 / (2 * zeta), 0, (1 / (2 * zeta),)), IController(1.0))).setpoint
+    damped = math.sqrt(1 - zeta**2)
+    assert got.overshoot == pytest.approx(math.exp(-math.pi * zeta / damped), rel=1e-8)
+    assert got.peak_time == pytest.approx(math.pi / damped, rel=1e-6)
+
+
+def test_metrics_with_dead_time_against_adaptive_quadrature_of_the_simulated_error():
+    loop = Loop(Plant(1, 2, (3, 1), (-0.5,)), SeriesPid(0.5, 3))
+
+    def e(t):
+        return 1 - simulate(loop, Scenario(disturbance=0, t=np.array([t]))).y[0]
+
+    edges = np.arange(0, 161, 4.0)
+    got = performance(loop).setpoint
+    parts = [quad(lambda t: abs(e(t)), a, b, epsabs=1e-9, limit=60)[0] for a, b in pairwise(edges)]
+    assert pytest.approx(sum(parts), rel=1e-6) == got.IAE
+
+
+def test_a_loop_that_is_not_stable_has_no_metrics():
+    with pytest.raises(NotStable, match="unstable"):
+        performance(Loop(Plant(1, 1), IController(2)))
+
+
+def test_an_offset_has_no_IAE():
+    with pytest.raises(NotStable, match="offset"):
+        performance(Loop(Plant(1, 1, (5,)), ParallelPid(2, 0)))
