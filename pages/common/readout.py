@@ -24,7 +24,8 @@ STYLE = f"""<style>
 .strip .first {{grid-row: span 2; border-left: 6px solid var(--band); display: flex; flex-direction: column;
   justify-content: center}}
 .strip .first b {{font-size: 2rem}}
-.strip .first span {{color: color-mix(in srgb, var(--band) 75%, var(--st-text-color)); font-weight: 600; font-size: 0.85rem}}
+.strip .first span {{color: color-mix(in srgb, var(--band) 75%, var(--st-text-color));
+  font-weight: 600; font-size: 0.85rem}}
 .strip.calm {{--band: {palette.CALM}}} .strip.attention {{--band: {palette.ATTENTION}}}
 .strip.alarm {{--band: {palette.ALARM}}}
 @media (max-width: 640px) {{

@@ -9,12 +9,20 @@ EXAMPLE = "exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"  # [V06] example 1
 PANELS = ("y", "u", "nyquist", "sensitivity")
 
 
+def figures(open_page, server, width=1280) -> Page:
+    """The tab of figures, open."""
+    page = open_page(f"{server}/tuning?plant={EXAMPLE}", width)
+    page.get_by_role("tab", name="Figures").click()
+    idle(page)
+    return page
+
+
 def panel(page: Page, key: str):
     return page.locator(f".st-key-panel_{key}")
 
 
 def test_everything_that_decides_is_in_sight_without_scrolling(server, open_page):
-    page = open_page(f"{server}/tuning?plant={EXAMPLE}")
+    page = figures(open_page, server)
     for key in PANELS:
         panel(page, key).locator(".main-svg").first.wait_for()
         box = panel(page, key).bounding_box()
@@ -26,7 +34,7 @@ def test_everything_that_decides_is_in_sight_without_scrolling(server, open_page
 
 
 def test_a_narrow_screen_shows_one_panel_and_two_figures_a_row(server, open_page):
-    page = open_page(f"{server}/tuning?plant={EXAMPLE}", 390)
+    page = figures(open_page, server, 390)
     assert [panel(page, key).is_visible() for key in PANELS] == [True, False, False, False]
     page.locator(".st-key-panel").get_by_text("Nyquist").click()
     idle(page)
@@ -39,7 +47,7 @@ def test_a_narrow_screen_shows_one_panel_and_two_figures_a_row(server, open_page
 
 @pytest.mark.parametrize("key", ["Enter", " "])
 def test_pinning_works_from_the_keyboard_and_is_drawn(key, server, open_page):
-    page = open_page(f"{server}/tuning?plant={EXAMPLE}")
+    page = figures(open_page, server)
     page.get_by_role("button", name="Pin as A").press(key)
     idle(page)
     assert "pins=" in page.url
@@ -50,7 +58,7 @@ def test_pinning_works_from_the_keyboard_and_is_drawn(key, server, open_page):
 
 
 def test_nyquist_is_drawn_one_to_one_and_figures_export_as_svg(server, open_page):
-    page = open_page(f"{server}/tuning?plant={EXAMPLE}")
+    page = figures(open_page, server)
     panel(page, "nyquist").locator(".main-svg").first.wait_for()
     scale = page.evaluate(
         """() => {

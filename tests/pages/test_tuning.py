@@ -1,17 +1,18 @@
 """Tuning page: what it says, and what it must not say, without a browser."""
 
 import json
+import re
 
 import pytest
 
 from .tools import address, run_page, texts
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1
-FIGURES = 5  # y, u, Nyquist, |S| and |T|, Bode of L
+PANELS = 4  # y, u, Nyquist, |S| and |T|
 
 
-def tuned(**parameters):
-    return run_page("tuning", plant=EXAMPLE, **parameters)
+def tuned(view="Figures", plant=EXAMPLE, **parameters):
+    return run_page("tuning", view, plant=plant, **parameters)
 
 
 def copied(app):
@@ -35,7 +36,7 @@ def test_the_pi_controller_of_the_literature_is_on_the_screen():
     assert settings["Kc"] == pytest.approx(0.57, abs=0.005)  # [V06] example 1
     assert settings["tau_I"] == pytest.approx(8)
     assert "0.5714" in texts(app)
-    assert len(specs(app)) == FIGURES
+    assert len(specs(app)) == PANELS
 
 
 def test_the_pid_controller_of_the_literature_is_on_the_screen():
@@ -54,7 +55,7 @@ def test_all_three_forms_describe_one_controller():
 
 
 def test_the_exact_margins_of_a_first_order_plant_are_read():
-    html = strip(run_page("tuning", plant="2 exp(-s)/(8s+1)", tau_c="1"))
+    html = strip(tuned(plant="2 exp(-s)/(8s+1)", tau_c="1"))
     for value in ("1.59", "3.14", "61.4", "2.14"):  # theory.md sect. 3: Ms, GM = pi, PM, delay margin
         assert f"<b>{value}</b>" in html
     assert "calm" in html
@@ -68,12 +69,15 @@ def test_ms_is_named_by_its_band_in_words(tau_c, band):
 
 
 def test_a_loop_that_is_not_stable_shows_no_margins_and_no_metrics():
-    app = tuned(order="2", tau_c="0.001", filter="3")  # two poles in the right half plane
+    unstable = {"order": "2", "tau_c": "0.001", "filter": "3"}  # two poles in the right half plane
+    app = tuned(**unstable)
     html = strip(app)
     assert "not stable" in html
     assert not any(word in html for word in ("margin GM", "IAE", "Overshoot", "title="))
     assert "not stable" in "\n".join(error.value for error in app.error)
-    for spec in specs(app):
+    pictures = specs(app) + specs(tuned("Bode of L", **unstable))
+    assert len(pictures) == PANELS + 1
+    for spec in pictures:
         assert "not stable" in spec["layout"]["annotations"][0]["text"]
         shown = [text for trace in spec["data"] for text in trace.get("text", [])]
         assert not [text for text in shown if text.startswith(("Ms ", "Mt ", "GM", "PM", "delay"))]
@@ -98,13 +102,15 @@ def test_a_pinned_design_stays_what_it_was_and_is_drawn_and_listed():
     app = tuned()
     app.button(key="pin").click().run()
     app.number_input(key="tau_c_exact").set_value(20.0).run()
+    names = {trace["name"] for trace in specs(app)[0]["data"]}
+    assert names == {"r", "present", "A"}
+    app.session_state["views"] = "Compare"
+    app.run()
     (table,) = [frame.value for frame in app.dataframe if "present" in frame.value]
     values = table.set_index("")
     assert values.loc["τc", "A"] == "7"
     assert values.loc["τc", "present"] == "20"
     assert float(values.loc["Kp", "A"]) == pytest.approx(0.5714)
-    names = {trace["name"] for trace in specs(app)[0]["data"]}
-    assert names == {"r", "present", "A"}
     app.button(key="unpin_0").click().run()
     assert "pins" not in address(app)
 
@@ -133,9 +139,10 @@ def test_derivative_action_without_a_filter_is_called_by_its_name():
 def test_the_set_point_weight_changes_the_response_and_not_the_margins():
     full, half = tuned(), tuned(b="0.5")
     assert "Ms" in strip(full)
-    margins = [strip(app).split("IAE")[0] for app in (full, half)]
-    assert margins[0] == margins[1]
-    assert strip(full) != strip(half)
+    first, other = (re.findall("<b>(.*?)</b>", strip(app)) for app in (full, half))
+    assert first[:4] == other[:4]  # Ms, GM, PM, delay margin
+    assert first[4] != other[4]  # IAE of the set point
+    assert first[5:7] == other[5:7]  # IAE of the load, Mt
 
 
 @pytest.mark.parametrize(
@@ -148,7 +155,7 @@ def test_the_set_point_weight_changes_the_response_and_not_the_margins():
     ],
 )
 def test_what_the_rules_do_not_cover_is_said_in_words(plant, words):
-    app = run_page("tuning", plant=plant)
+    app = tuned(plant=plant)
     assert words in texts(app)
     assert not app.get("plotly_chart")
 
@@ -165,13 +172,15 @@ def test_what_the_rules_do_not_cover_is_said_in_words(plant, words):
         "-2exp(-s)/(5s+1)",
     ],
 )
-@pytest.mark.parametrize("form", ["series", "ideal", "parallel"])
-def test_every_kind_of_model_has_a_page(plant, form):
-    app = run_page("tuning", plant=plant, order="2", form=form)
-    assert len(specs(app)) == FIGURES
+@pytest.mark.parametrize("view", ["Live", "Figures", "Bode of L", "Compare"])
+def test_every_kind_of_model_has_a_page_in_every_form(plant, view):
+    for form in ("series", "ideal", "parallel") if view == "Bode of L" else ("series",):
+        app = tuned(view, plant, order="2", form=form)
+        assert not app.error
+        assert len(specs(app)) == {"Figures": PANELS, "Bode of L": 1}.get(view, 0)
 
 
 def test_poles_are_listed_with_their_damping():
-    table = next(frame.value for frame in tuned().dataframe if "damping ζ" in frame.value)
+    table = next(frame.value for frame in tuned("Compare").dataframe if "damping ζ" in frame.value)
     assert len(table) >= 2
     assert all(0 < float(zeta) <= 1 for zeta in table["damping ζ"])
