@@ -18,7 +18,7 @@ import numpy as np
 from simc_core.errors import InvalidParameter
 from simc_core.models import FirstOrderDelay, Model, SecondOrderDelay
 
-PER_DECADE = 20
+PER_DECADE = 14
 STENCIL = 4
 TOLERANCE = 5e-4  # of a curve's range, at the midpoints: a quarter of what the reader is promised
 MOST_ROWS = 480

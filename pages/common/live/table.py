@@ -107,23 +107,18 @@ def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) 
     """The table as bytes, under its name."""
     low, high, unit, symbol = bounds(of.model)
     fixed = isinstance(of.model, UnstableDelay)
-    if fixed:  # the rule knows one tau_c: two rows of the same
-        rows, tau_c = Rows(np.log([0.99 * low, 1.01 * high]), (0, 1)), np.full(2, of.model.theta)
-        time_curves = _time_curves(of, on, tau_c)
-    else:
-        rows, time_curves = refined(first_rows(low, high, kinks(of.model)), lambda tau_c: _time_curves(of, on, tau_c))
-        tau_c = rows.tau_c
+    grid, found = rows(of, on)
+    tau_c = np.full(2, of.model.theta) if fixed else grid.tau_c
+    blocks = dict(zip(CURVES, found, strict=True))
     loops = [of.loop(each) for each in tau_c]
-    L = np.array([loop.L(1j * on.omega) for loop in loops])
-    blocks = dict(zip(CURVES, (*time_curves, L.real, L.imag), strict=True))
     figures_of = [estimated(loop, on) for loop in loops]
     stable = np.array([not math.isnan(each["Ms"]) for each in figures_of])
     names = list(settings(loops[0].controller, of.form))
     header = {
         "kind": "table",
         "id": name,
-        "log_tau_c": rows.x.tolist(),
-        "breaks": rows.breaks,
+        "log_tau_c": grid.x.tolist(),
+        "breaks": grid.breaks,
         "t": on.t.tolist(),
         "load": on.load,
         "omega": on.omega.tolist(),
@@ -134,7 +129,7 @@ def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) 
         "low": low,
         "high": high,
         "fixed": fixed,
-        "unstable": unstable_ranges(rows.tau_c, stable, lambda each: stability(of.loop(each)).verdict == "stable"),
+        "unstable": unstable_ranges(grid.tau_c, stable, lambda each: stability(of.loop(each)).verdict == "stable"),
         "presets": list(tau_c_presets(of.model).items()),
         "pins": [{"name": letter, "metrics": figures(judged(each, on.omega))} for letter, each in pins],
         "y_cap": cap(blocks["y"][stable], 1.0),
@@ -146,6 +141,19 @@ def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) 
         pinned = zip(*[responses(each.loop, on) for _, each in pins], strict=True)
         blocks |= {f"pin_{field}": np.array(rows) for field, rows in zip(CURVES, pinned, strict=True)}
     return pack(header, blocks)
+
+
+def rows(of: Subject, on: Bench) -> tuple[Rows, list[np.ndarray]]:
+    """Rows close enough for reading between them, and y, u, Re L, Im L there, each of shape (rows, points)."""
+    low, high, *_ = bounds(of.model)
+    if isinstance(of.model, UnstableDelay):  # the rule knows one tau_c: two rows of the same
+        grid, tau_c = Rows(np.log([0.99, 1.01]) + math.log(of.model.theta), (0, 1)), np.full(2, of.model.theta)
+        found = _time_curves(of, on, tau_c)
+    else:
+        grid, found = refined(first_rows(low, high, kinks(of.model)), lambda tau_c: _time_curves(of, on, tau_c))
+        tau_c = grid.tau_c
+    L = np.array([of.loop(each).L(1j * on.omega) for each in tau_c])
+    return grid, [*found, L.real, L.imag]
 
 
 def exact(of: Subject, on: Bench, present: Study, name: str, answers: int) -> bytes:

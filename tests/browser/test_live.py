@@ -1,0 +1,199 @@
+"""The instrument: it follows the hand without asking the server, and exact numbers replace the read ones on release."""
+
+import re
+
+import numpy as np
+import pytest
+from playwright.sync_api import Page, expect
+
+from simc_core.tau_table import first_rows, stencil
+from tests.browser.tools import ROOT, idle, picture
+
+EXAMPLE = "exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"  # [V06] example 1
+UNSTABLE = "exp(-0.2s)/((5s%2B1)(4s%2B1))&order=2&filter=3"  # a slow filter: unstable for small tau_c
+EXACT = re.compile("true")
+
+
+def live(page: Page):
+    return page.locator(".live")
+
+
+def handle(page: Page):
+    return page.get_by_role("slider", name="Closed-loop time constant")
+
+
+def at_rest(page: Page) -> None:
+    expect(live(page)).to_have_attribute("data-exact", EXACT)
+
+
+def tau_c(page: Page) -> float:
+    return float(handle(page).get_attribute("aria-valuenow"))
+
+
+def opened(open_page, server, plant=EXAMPLE, **how) -> Page:
+    page = open_page(f"{server}/tuning?plant={plant}", **how)
+    at_rest(page)
+    return page
+
+
+def track(page: Page) -> dict:
+    return page.locator(".track").bounding_box()
+
+
+@pytest.mark.parametrize("width", [1280, 390])
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_pictures(server, open_page, width, theme):
+    page = opened(open_page, server, width=width, theme=theme)
+    if width == 1280:
+        box = page.locator(".field.responses").bounding_box()
+        assert box["y"] + box["height"] <= 900
+    else:
+        live(page).scroll_into_view_if_needed()
+        assert page.locator("figure:visible").count() == 1
+    picture(page, "live")
+
+
+def test_a_drag_redraws_without_the_server_and_its_release_asks_once(server, open_page):
+    page = opened(open_page, server)
+    sent = []
+    page.on("websocket", lambda socket: socket.on("framesent", lambda frame: sent.append(frame)))
+    page.reload()
+    idle(page)
+    at_rest(page)
+    box, before = track(page), len(sent)
+    page.mouse.move(box["x"] + box["width"] * 0.4, box["y"] + 13)
+    page.mouse.down()
+    seen = set()
+    for step in range(20):
+        page.mouse.move(box["x"] + box["width"] * (0.4 + step / 60), box["y"] + 13)
+        page.wait_for_timeout(20)
+        seen.add(live(page).get_attribute("data-drawn"))
+    assert len(seen) > 10
+    assert live(page).get_attribute("data-exact") == "false"
+    assert len(sent) == before
+    page.mouse.up()
+    at_rest(page)
+    assert len(sent) > before
+    idle(page)
+    assert f"tau_c={tau_c(page):g}"[:9] in page.url
+
+
+def test_the_released_number_is_the_exact_one(server, open_page):
+    page = opened(open_page, server, plant="2 exp(-s)/(8s%2B1)")
+    handle(page).press("Home")
+    expect(live(page)).to_have_attribute("data-drawn", "0.1")
+    handle(page).press("1")  # tight: tau_c = theta
+    at_rest(page)
+    idle(page)
+    for name, value in (("Ms", 1.59049), ("GM", 3.14159), ("PM_deg", 61.3521), ("delay_margin", 2.14159)):
+        # theory.md sect. 3, exact facts for tau_c = theta
+        shown = page.locator(f"[data-figure={name}]").get_attribute("title")
+        assert float(shown) == pytest.approx(value, abs=1e-4)
+
+
+def test_keys_move_the_slider_and_it_says_where_it_is(server, open_page):
+    page = opened(open_page, server)
+    start = tau_c(page)
+    handle(page).press("ArrowRight")
+    assert 1.02 < tau_c(page) / start < 1.1
+    handle(page).press("PageDown")
+    handle(page).press("Home")
+    assert tau_c(page) == pytest.approx(float(handle(page).get_attribute("aria-valuemin")))
+    handle(page).press("End")
+    assert tau_c(page) == pytest.approx(float(handle(page).get_attribute("aria-valuemax")))
+    assert "times theta" in handle(page).get_attribute("aria-valuetext")
+    at_rest(page)
+    expect(page.locator("figure[data-panel=y] .plot")).to_have_attribute("aria-label", re.compile("Output y.*Ms 1"))
+
+
+def test_touch_moves_the_slider(server, open_page):
+    page = opened(open_page, server, width=390, touch=True)
+    live(page).scroll_into_view_if_needed()
+    box, before = track(page), tau_c(page)
+    page.touchscreen.tap(box["x"] + box["width"] * 0.8, box["y"] + 13)
+    assert tau_c(page) > 5 * before
+    at_rest(page)
+
+
+def test_an_unstable_range_is_hatched_and_drawn_as_such(server, open_page):
+    page = opened(open_page, server, plant=UNSTABLE)
+    assert page.locator(".hatch").count() >= 1
+    handle(page).press("Home")
+    expect(page.locator("[data-figure=Ms]")).to_contain_text("not stable")
+    expect(page.locator("[data-figure=GM] b")).to_have_text("–")
+    at_rest(page)
+    expect(page.locator("[data-figure=Ms]")).to_contain_text("not stable")
+    picture(page, "live-unstable")
+
+
+def test_the_smallest_tau_c_for_an_ms_sets_the_slider(server, open_page):
+    page = opened(open_page, server)
+    page.get_by_label("Smallest tau_c with Ms at most").fill("1.6")
+    page.get_by_label("Smallest tau_c with Ms at most").press("Enter")
+    expect(page.locator("[data-figure=Ms] b")).to_have_text("1.6")
+    at_rest(page)
+    Ms = float(page.locator("[data-figure=Ms]").get_attribute("title"))
+    assert 1.6 - 1e-5 < Ms <= 1.6
+
+
+def test_trade_off_lecture_and_picture(server, open_page):
+    page = opened(open_page, server)
+    page.get_by_role("button", name="Trade-off").click()
+    assert page.locator(".tradeoff figure:visible").count() == 8
+    picture(page, "live-tradeoff")
+    handle(page).press("l")
+    expect(page.get_by_role("button", name="Lecture")).to_have_attribute("aria-pressed", "true")
+    picture(page, "live-lecture")
+    handle(page).press("Escape")
+    expect(page.get_by_role("button", name="Lecture")).to_have_attribute("aria-pressed", "false")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="PNG").click()
+    assert download.value.suggested_filename.endswith(".png")
+
+
+def test_what_if_moves_up_and_down_and_stops_where_it_is(server, open_page):
+    page = opened(open_page, server)
+    start = tau_c(page)
+    page.get_by_role("button", name="What if").click()
+    page.wait_for_timeout(1000)
+    page.get_by_role("button", name="What if").click()
+    assert tau_c(page) > 1.2 * start
+    at_rest(page)
+
+
+def test_the_theme_changes_the_colours_of_the_axes(server, open_page):
+    page = opened(open_page, server)
+    plot = page.locator("figure[data-panel=y] canvas")
+    before = plot.evaluate("canvas => canvas.toDataURL()")
+    page.emulate_media(color_scheme="dark")
+    page.wait_for_timeout(1000)
+    assert plot.evaluate("canvas => canvas.toDataURL()") != before
+    picture(page, "live-theme-changed")
+
+
+def test_a_lost_connection_comes_back_with_the_same_state(server, open_page):
+    page = opened(open_page, server)
+    handle(page).press("PageUp")
+    at_rest(page)
+    idle(page)
+    chosen = tau_c(page)
+    page.context.set_offline(True)
+    page.wait_for_timeout(500)
+    page.context.set_offline(False)
+    page.reload()
+    idle(page)
+    at_rest(page)
+    assert tau_c(page) == pytest.approx(chosen)
+
+
+def test_the_browser_reads_the_table_as_python_does(server, open_page):
+    """stencil() of table.js against simc_core.tau_table.stencil, kinks included."""
+    page = opened(open_page, server)
+    script = (ROOT / "pages" / "common" / "live" / "table.js").read_text(encoding="utf-8")
+    rows = first_rows(0.1, 100.0, [1.7, 30.0])
+    for x in np.linspace(rows.x[0], rows.x[-1], 301):
+        first, weights = stencil(rows, x)
+        asked = [rows.x.tolist(), list(rows.breaks), x]
+        got = page.evaluate(f"([n, b, x]) => {{ {script}; return stencil(x, n, b); }}", asked)
+        assert got["first"] == first
+        assert got["weights"] == pytest.approx(weights, abs=1e-12)
