@@ -14,18 +14,17 @@ from simc_core.notation import number
 CALM, ATTENTION = 1.6, 2.0  # upper ends of the bands of Ms
 DIGITS = 3
 STYLE = f"""<style>
-.strip {{display: grid; grid-template-columns: 1.5fr repeat(5, 1fr); gap: 1px; font-variant-numeric: tabular-nums;
-  background: var(--st-border-color); border: 1px solid var(--st-border-color); border-radius: 4px; overflow: hidden}}
-.strip > div {{background: var(--st-background-color); padding: 0.3rem 0.6rem; line-height: 1.25; min-width: 0}}
+.strip {{display: grid; grid-template-columns: 1.5fr repeat(5, 1fr); font-variant-numeric: tabular-nums;
+  border: 1px solid {palette.GRID}; border-radius: 4px; overflow: hidden}}
+.strip > div {{padding: 0.3rem 0.6rem; line-height: 1.25; min-width: 0}}
 .strip small {{display: block; font-size: 0.75rem; opacity: 0.75; white-space: nowrap; overflow: hidden;
   text-overflow: ellipsis}}
 .strip b {{font-size: 1.05rem; font-weight: 600; white-space: nowrap}}
 .strip i {{font-style: normal; font-size: 0.8rem; opacity: 0.75}}
 .strip .first {{grid-row: span 2; border-left: 6px solid var(--band); display: flex; flex-direction: column;
   justify-content: center}}
-.strip .first b {{font-size: 2rem}}
-.strip .first span {{color: color-mix(in srgb, var(--band) 75%, var(--st-text-color));
-  font-weight: 600; font-size: 0.85rem}}
+.strip .first b {{font-size: 2rem; color: var(--band)}}
+.strip .first span {{font-weight: 600; font-size: 0.85rem}}
 .strip.calm {{--band: {palette.CALM}}} .strip.attention {{--band: {palette.ATTENTION}}}
 .strip.alarm {{--band: {palette.ALARM}}}
 @media (max-width: 640px) {{
