@@ -56,7 +56,7 @@ def test_a_first_order_loop_has_closed_form_metrics():
     assert pytest.approx(T**2, rel=1e-7) == got.ITAE
     assert got.rise_time == pytest.approx(T * math.log(9), rel=1e-8)
     assert got.settling_time == pytest.approx(T * math.log(50), rel=1e-8)
-    assert got.TV == pytest.approx(1, rel=1e-8)
+    assert pytest.approx(1, rel=1e-8) == got.TV  # u goes up to 1 and stays
     assert got.overshoot == 0
 
 
