@@ -87,7 +87,7 @@ def shade(color: str, position: int) -> tuple[str, str, float]:
 def axis(title: str, **more) -> dict[str, Any]:
     """A linear axis with name and unit."""
     return {
-        "title": {"text": title, "standoff": 4, "font": {"size": 12}},
+        "title": {"text": title, "standoff": 14, "font": {"size": 12}},
         "gridcolor": GRID,
         "zerolinecolor": GRID,
         "linecolor": NEUTRAL,
