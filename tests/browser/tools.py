@@ -31,14 +31,14 @@ PATIENCE = 30  # seconds for a server to start on a busy machine
 
 
 class Server:
-    """A fresh `streamlit run app.py` on a free port of 127.0.0.1."""
+    """A fresh `streamlit run` of a script, app.py unless told otherwise, on a free port of 127.0.0.1."""
 
-    def __init__(self):
+    def __init__(self, script: Path = ROOT / "app.py"):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
         self.url = f"http://127.0.0.1:{port}"
-        command = [sys.executable, "-m", "streamlit", "run", "app.py"]
+        command = [sys.executable, "-m", "streamlit", "run", str(script)]
         options = [f"--server.port={port}", "--server.address=127.0.0.1", "--server.fileWatcherType=none"]
         self.process = subprocess.Popen(
             command + options, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
