@@ -119,11 +119,13 @@ async def sessions(n: int) -> dict[str, float]:
     server = Server()
     try:
         async with asyncio.timeout(4 * PATIENCE):
-            await Client(server.url).run(1, 0.0)  # the process has imported everything
-            before = memory(server)
-            clients = [Client(server.url) for _ in range(n)]
-            pause = PAUSE if n > 1 else 0.5
-            await asyncio.gather(*(each.run(RELEASES if n > 1 else 10, pause, stay=True) for each in clients))
+            first = Client(server.url)
+            await first.open()  # the process has imported everything
+            await first.socket.close()
+            before, clients = memory(server), [Client(server.url) for _ in range(n)]
+            for each in clients:  # one after the other: a class that comes in, not a stampede
+                await each.open()
+            await asyncio.gather(*(each.release(*((RELEASES, PAUSE) if n > 1 else (10, 0.5))) for each in clients))
             grown = memory(server) - before
             await asyncio.gather(*(each.socket.close() for each in clients))
         times = [each for one in clients for each in one.times]
@@ -140,16 +142,16 @@ class Client:
         self.times: list[float] = []
         self.kept: list[str] = []
 
-    async def run(self, releases: int, pause: float, stay: bool = False) -> None:
-        """Open the tuning page, then release the slider at random moments."""
+    async def open(self) -> None:
+        """The tuning page for the first time."""
         self.socket = await connect(self.address, subprotocols=["streamlit"], max_size=None)
-        await asyncio.sleep(random.uniform(0, pause))
         await self.rerun("7")
-        for _ in range(releases):
+
+    async def release(self, times: int, pause: float) -> None:
+        """Releases of the slider at random moments."""
+        for _ in range(times):
             await asyncio.sleep(random.uniform(0.5, 1.5) * pause)
             self.times.append(await self.rerun(f"{random.uniform(5, 9):.4g}"))
-        if not stay:
-            await self.socket.close()
 
     async def rerun(self, tau_c: str) -> float:
         """ms until the script has ended."""

@@ -41,14 +41,16 @@ def unpacked(message: bytes) -> tuple[dict, dict[str, np.ndarray]]:
 
 def made(plant: Plant, tuning: Tuning = Tuning()):  # noqa: B008
     present = study(plant, tuning)
-    of, on = table.subject(plant, present, "series"), table.bench(present)
+    of = table.subject(plant, present, "series")
+    on = table.bench(of, present)
     return present, of, on, table.table(of, on, [("A", present)], "name")
 
 
 def worst_error(plant: Plant, order: int, rng) -> float:
     """Largest error of y, u, |S| and |T| over their ranges, at six tau_c, half of them in the fastest decade."""
     present = study(plant, Tuning(order=order))
-    of, on = table.subject(plant, present, "series"), table.bench(present)
+    of = table.subject(plant, present, "series")
+    on = table.bench(of, present)
     rows, curves = table.rows(of, on)
     curves = [each.astype(np.float32).astype(float) for each in curves]  # as they travel
     worst = 0.0
@@ -91,7 +93,7 @@ def test_a_table_holds_what_its_header_says_and_pins_share_its_grid():
 @pytest.mark.parametrize("tau_c", [0.7, 7.0, 70.0])
 def test_estimated_metrics_of_a_row_are_near_the_exact_ones(tau_c):
     present = study(Plant(1.0, 3.0, (6.0, 4.0, 2.0)), Tuning(tau_c=tau_c))
-    on = table.bench(present)
+    on = table.bench(table.subject(present.loop.plant, present, "series"), present)
     assert table.estimated(present.loop, on) == pytest.approx(table.judged(present, on.omega), rel=0.01, abs=1e-3)
 
 

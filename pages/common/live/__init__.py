@@ -6,6 +6,7 @@ numbers travel apart: an unchanged table is a reference of a few bytes to what t
 uPlot draws (uplot.LICENSE); measured against plotly.js and a canvas of our own, see benchmarks/ui.py.
 """
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import streamlit as st
@@ -37,24 +38,27 @@ def instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     """Slider, figures, panels and trade-off of the present design (first) with the pinned ones behind it."""
     present, pins = studies[0][1], studies[1:]
     of = table.subject(plant, present, state.value("form"))
-    on = table.bench(present)
-    message, name = _table(of, on, pins)
-    _instrument(key=KEY, data=message, on_release_change=_released)
+    kept = state.memory("live_table", lambda: _Kept(of))
+    on = table.bench(of, present, kept.horizon if kept.of == of else None)
+    name = table.name_of(of, on, pins)
+    if kept.name != name:  # a release must not make the table again
+        kept = _Kept(of, float(on.t[-1]), name, table.table(of, on, pins, name))
+        state.remember("live_table", kept)
+    _instrument(key=KEY, data=kept.message, on_release_change=_released)
     refusal, answers = state.memory("live_refusal", str), state.memory("live_answers", int)
     _exact(key=f"{KEY}_exact", data=table.exact(of, on, present, name, answers))
     if refusal:
         st.warning(refusal)
 
 
-def _table(of: table.Subject, on: table.Bench, pins: list[tuple[str, Study]]) -> tuple[bytes, str]:
-    """The table, kept as long as it serves: a release must not make it again."""
-    name = table.name_of(of, on, pins)
-    kept = state.memory("live_table", lambda: (b"", ""))
-    if kept[1] != name:
-        kept = (table.table(of, on, pins, name), name)
-        state.remember("live_table", kept)
-    state.remember("live_subject", of)
-    return kept
+@dataclass(frozen=True, slots=True)
+class _Kept:
+    """The table the browser holds."""
+
+    of: table.Subject
+    horizon: float | None = None
+    name: str = ""
+    message: bytes = b""
 
 
 def _released() -> None:
@@ -70,6 +74,6 @@ def _released() -> None:
 
 def _for_Ms(limit: float) -> float:
     """The smallest tau_c on the slider with Ms <= limit. Raises InvalidParameter where there is none."""
-    of = state.memory("live_subject", lambda: None)
+    of = state.memory("live_table", lambda: None).of
     low, high, *_ = table.bounds(of.model)
     return smallest(lambda tau_c: margins(of.loop(tau_c)).Ms, limit, low, high)

@@ -19,6 +19,7 @@ from simc_core.models import Model, UnstableDelay
 from simc_core.plant import Plant
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
+from simc_core.simulation.simulate import settling_horizon
 from simc_core.simulation.steps import unit_steps
 from simc_core.simulation.system import closed_loop
 from simc_core.stability import stability
@@ -26,10 +27,10 @@ from simc_core.tau_table import Rows, first_rows, kinks, refined
 
 SHORTEST, LONGEST = 0.1, 100.0  # of tau_c over theta, on the slider
 POINTS = 300
-LOAD_AT = 0.4  # of the horizon
+LOAD_AT = 0.5  # of the horizon
 JUMPS = 12  # instants k theta after each step at which curves may break
 BEFORE = 1e-9  # relative: the left-hand side of a jump
-ROUND = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0)
+SHORT_OF, BEYOND = 0.35, 1.25  # of the horizon on the screen: a design that needs as much is still well shown on it
 BISECTIONS = 30
 FIELDS = {"series": ("Kc", "tau_I", "tau_D"), "ideal": ("Kc", "tau_I", "tau_D"), "parallel": ("Kp", "Ki", "Kd")}
 CURVES = ("y", "u", "re", "im")
@@ -85,14 +86,18 @@ def subject(plant: Plant, present: Study, form: str) -> Subject:
     return Subject(plant, present.model, replace(present.tuning, tau_c=None), form)
 
 
-def bench(present: Study) -> Bench:
-    """Instants and frequencies; the horizon is that of the present design, rounded up so that it seldom changes."""
-    end = rounded_up(float(simulate(present.loop, Scenario()).t[-1]))
-    load, theta = LOAD_AT * end, present.loop.plant.theta
+def bench(of: Subject, present: Study, shown: float | None = None) -> Bench:
+    """Instants and frequencies. shown: the horizon on the screen, kept as long as the present design suits it.
+
+    The frequencies are those of one reference design, so that they do not change with tau_c.
+    """
+    wanted = 2 * settling_horizon(present.loop)
+    end = shown if shown and SHORT_OF <= wanted / shown <= BEYOND else wanted
+    load, theta = LOAD_AT * end, of.plant.theta
     breaks = np.array([start + k * theta for start in (0.0, load) for k in range(JUMPS + 1)])
     breaks = breaks[(breaks > 0) & (breaks < end)]
     t = np.unique(np.concatenate([np.linspace(0.0, end, POINTS + 1), breaks, breaks * (1 - BEFORE)]))
-    return Bench(t, load, omega_grid([present.loop.L]))
+    return Bench(t, load, omega_grid([of.loop(bounds(of.model)[2]).L]))
 
 
 def bounds(model: Model) -> tuple[float, float, float, str]:
@@ -261,12 +266,6 @@ def cap(responses: np.ndarray, room: float) -> tuple[float, float]:
         return (-10.0, 10.0)
     low, high = min(float(responses.min()), 0.0), max(float(responses.max()), 1.0)
     return (low - room * (high - low), high + room * (high - low))
-
-
-def rounded_up(value: float) -> float:
-    """The next of ROUND times a power of ten."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return power * next(step for step in ROUND if step * power >= value * (1 - 1e-9))
 
 
 def name_of(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]]) -> str:
