@@ -11,7 +11,6 @@ TITLES = {
     "plant": "Plant",
     "half_rule": "Half rule",
     "tuning": "Tuning",
-    "cascade": "Cascade",
     "accuracy": "Accuracy",
 }
 # Less air round the page than Streamlit leaves: an instrument shows its dials. The line stays one line where it fits.
@@ -24,7 +23,7 @@ STYLE = """<style>
 [data-testid="stMain"] :is(p, .katex-display):has(> .katex) {overflow-x: auto; overflow-y: hidden}
 .st-key-line [data-testid="stElementContainer"] {max-width: 100%}
 </style>"""
-CHAIN = ("plant", "half_rule", "tuning", "cascade")
+CHAIN = ("plant", "half_rule", "tuning")
 
 
 def go(place: str) -> None:
@@ -53,7 +52,7 @@ def show(place: str) -> Design:
 
 
 def chain(place: str, key: str = "chain") -> None:
-    """Plant > Half rule > Tuning > Cascade, to click, with the present place marked."""
+    """Plant > Half rule > Tuning, to click, with the present place marked."""
     with st.container(key=key, horizontal=True, vertical_alignment="center", gap="xsmall", width="content"):
         for i, name in enumerate(CHAIN):
             if i:

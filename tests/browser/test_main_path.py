@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.tools import THEMES, WIDTHS, fits, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1: PI Kc 0.57, tau_I 8
-PLACES = ("", "plant", "half_rule", "tuning", "cascade", "accuracy")
+PLACES = ("", "plant", "half_rule", "tuning", "accuracy")
 TRACEBACK = "[data-testid=stException]"
 
 

@@ -13,7 +13,7 @@ from simc_core import Plant
 from simc_core.examples import EXAMPLES
 from tests.pages.tools import address, run_app, run_page, texts
 
-PLACES = ("home", "plant", "half_rule", "tuning", "cascade", "accuracy")
+PLACES = ("home", "plant", "half_rule", "tuning", "accuracy")
 
 
 @pytest.mark.parametrize("place", PLACES)

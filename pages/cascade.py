@@ -1,5 +1,0 @@
-"""Placeholder."""
-
-from pages.common import header
-
-header.show("cascade")
