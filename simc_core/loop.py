@@ -14,6 +14,7 @@ C is `controller.response`, C_r `controller.setpoint_response`. With b = c = 1 C
 """
 
 from dataclasses import dataclass
+from functools import singledispatch
 
 import numpy as np
 
@@ -48,14 +49,13 @@ class FrequencyResponse:
     GS: np.ndarray
 
 
+@singledispatch
 def frequency_response(loop: Loop, omega) -> FrequencyResponse:
-    """L, S, T, KS, GS of the loop at omega > 0, shape (n,); exact dead time.
+    """L, S, T, KS, GS of the loop at omega > 0, shape (n,); exact dead time. For nested loops see nested.py.
 
     Raises InvalidParameter where omega is not a list of positive finite numbers.
     """
-    omega = np.atleast_1d(np.asarray(omega, dtype=float))
-    if omega.ndim != 1 or not np.all(np.isfinite(omega)) or not np.all(omega > 0):
-        raise InvalidParameter(f"omega must be positive and finite, one-dimensional, got shape {omega.shape}")
+    omega = at_frequencies(omega)
     s = 1j * omega
     G, C = loop.plant.factored(s), loop.controller.factored(s)
     L = G * C
@@ -63,3 +63,11 @@ def frequency_response(loop: Loop, omega) -> FrequencyResponse:
         S = 1 / (1 + L)
         T = np.where(np.isfinite(L), L * S, 1.0)
     return FrequencyResponse(omega, L, S, T, C * S, G * S)
+
+
+def at_frequencies(omega) -> np.ndarray:
+    """omega as an array of shape (n,). Raises InvalidParameter where these are not positive finite numbers."""
+    omega = np.atleast_1d(np.asarray(omega, dtype=float))
+    if omega.ndim != 1 or not np.all(np.isfinite(omega)) or not np.all(omega > 0):
+        raise InvalidParameter(f"omega must be positive and finite, one-dimensional, got shape {omega.shape}")
+    return omega

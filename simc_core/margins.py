@@ -14,6 +14,7 @@ nothing: they are all math.nan.
 
 import math
 from dataclasses import dataclass
+from functools import singledispatch
 
 import numpy as np
 
@@ -46,6 +47,7 @@ BEYOND = 1e-6  # what the envelope is good for
 NOT_STABLE = Margins(*[math.nan] * 10, stable=False)
 
 
+@singledispatch
 def margins(loop: Loop) -> Margins:
     """Margins of a single loop; all nan where it is not stable."""
     if stability(loop).verdict != "stable":
@@ -53,6 +55,7 @@ def margins(loop: Loop) -> Margins:
     return margins_of(FactoredResponse(loop.L))
 
 
+@singledispatch
 def crossings(loop: Loop) -> Crossings:
     """Every crossing and peak, also of a loop that is not stable: for drawing."""
     return search(FactoredResponse(loop.L))

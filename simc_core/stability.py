@@ -15,6 +15,7 @@ Verduyn Lunel 1993, strong stability).
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import singledispatch
 from typing import Literal
 
 from simc_core.characteristic import characteristic, shifted
@@ -42,6 +43,7 @@ class Stability:
     neutral: float = 0.0
 
 
+@singledispatch
 def stability(loop: Loop) -> Stability:
     """Verdict on a single loop. Raises InvalidParameter where it is ill-posed, L(inf) = -1 without dead time."""
     return count_unstable([loop.L])

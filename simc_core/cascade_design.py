@@ -1,0 +1,214 @@
+"""Design of cascades: SIMC inside and outside, or direct synthesis, with given speeds or given peaks Ms.
+
+SIMC inner loop: half rule on Gb, tau_c = theta unless given. It then behaves as e^{-theta s}/(tau_c s + 1), theta and
+tau_c those of the inner design: behind Ga that is the outer plant, reduced and tuned the same way. A PID gets the filter
+tau_F = tau_c/20. The loops separate where tau_c_outer >= SEPARATE tau_c_inner.
+
+Where Ms is given instead, the smallest tau_c (or lambda) is taken at which the loop is stable and has it.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from simc_core import checks
+from simc_core.cascade import NestedStability
+from simc_core.controllers import Controller, IController, ParallelPid
+from simc_core.direct_synthesis import KINDS, direct_synthesis, numerator
+from simc_core.errors import InvalidParameter
+from simc_core.fastest import fastest
+from simc_core.half_rule import half_rule
+from simc_core.models import Model
+from simc_core.nested import CascadeLoop, NestedLoops
+from simc_core.plant import Plant
+from simc_core.simc import simc, tau_c_presets
+from simc_core.stability import Stability, stability
+
+SEPARATE = 5.0
+FILTER = 20.0  # tau_c/tau_F of the PID controllers of simc_cascade
+DOMINANT = 1.0  # dead time above this times the slowest time constant: direct synthesis is not meant for it
+LOWEST_MS, HIGHEST_MS = 1.05, 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class CascadeDesign:
+    """A cascade and how it came about. tau_c of SIMC, lambda of the direct synthesis; None for the other method.
+
+    notes: what the designer should know, in words.
+    """
+
+    loop: CascadeLoop
+    inner: Controller
+    outer: Controller
+    tau_c_inner: float | None = None
+    tau_c_outer: float | None = None
+    lambda_inner: float | None = None
+    lambda_outer: float | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def stability(self) -> NestedStability | Stability:
+        """Of both loops."""
+        return stability(self.loop)
+
+
+def simc_cascade(
+    primary: Plant,
+    secondary: Plant,
+    tau_c_inner: float | None = None,
+    tau_c_outer: float | None = None,
+    inner: str = "PI",
+    outer: str = "PI",
+    Ms_inner: float | None = None,
+    Ms_outer: float | None = None,
+    b: float = 1.0,
+) -> CascadeDesign:
+    """SIMC cascade, see the module docstring. None for tau_c and Ms: tau_c = theta.
+
+    Raises InvalidParameter for an unstable block, tau_c together with Ms, an Ms that cannot be met; NotReducible.
+    """
+    for name, block in (("primary", primary), ("secondary", secondary)):
+        if block.unstable_poles:
+            raise InvalidParameter(
+                f"{name} must be stable or integrating for a SIMC cascade, got {block.unstable_poles} unstable poles: "
+                "use direct synthesis, which is made for them"
+            )
+    model = half_rule(secondary, _order("inner", inner)).model
+    Cb, tau_cb = _tuned(model, tau_c_inner, "inner", Ms_inner, lambda C: NestedLoops((secondary,), (C,)))
+    effective = replace(primary, theta=primary.theta + model.theta, lags=(*primary.lags, tau_cb))
+    reduced = half_rule(effective, _order("outer", outer)).model
+    Ca, tau_ca = _tuned(
+        reduced, tau_c_outer, "outer", Ms_outer, lambda C: NestedLoops((secondary, primary), (Cb, C))
+    )
+    Ca = Ca if isinstance(Ca, IController) else replace(Ca, b=b)
+    notes = []
+    if tau_ca < SEPARATE * tau_cb:
+        notes.append(
+            f"tau_c_outer should be >= {SEPARATE:g} tau_c_inner = {SEPARATE * tau_cb:.4g} for the loops to separate, "
+            f"got {tau_ca:.4g}: slow the outer loop down, or speed the inner one up"
+        )
+    loop = CascadeLoop(primary, secondary, Ca, Cb)
+    return CascadeDesign(loop, Cb, Ca, tau_cb, tau_ca, notes=(*notes, *_on_inner(loop)))
+
+
+def synthesis_cascade(
+    primary: Plant,
+    secondary: Plant,
+    Ms_inner: float = 2.0,
+    Ms_outer: float = 2.0,
+    inner: str = "PID",
+    outer: str = "PID",
+    N_inner: float = 20.0,
+    N_outer: float | None = 20.0,
+    lambda_inner: float | None = None,
+    lambda_outer: float | None = None,
+    b: float = 1.0,
+) -> CascadeDesign:
+    """Direct synthesis of both loops [PSB]. A lambda that is given goes before the Ms of that loop.
+
+    N: tau_F = lambda/N of a PID. N_outer=None: tau_F = eta_1 of the inner loop, which cancels its zero.
+    Raises InvalidParameter where no lambda gives a stable loop with the Ms asked for, and for bounds.
+    """
+
+    def inside(lambda_: float) -> NestedLoops:
+        return NestedLoops((secondary,), (direct_synthesis(secondary, lambda_, inner, N_inner),))
+
+    lambda_b = _speed("lambda_inner", lambda_inner, "Ms_inner", Ms_inner, inside, _time_of(secondary))
+    closed = inside(lambda_b)
+    Cb = closed.controllers[0]
+    tau_F = float(numerator(secondary, lambda_b)[1]) if N_outer is None and secondary.order else None
+    N = 20.0 if N_outer is None else N_outer
+
+    def outside(lambda_: float) -> NestedLoops:
+        Ca = direct_synthesis(primary, lambda_, outer, N, closed, tau_F, b)
+        return NestedLoops((secondary, primary), (Cb, Ca))
+
+    lambda_a = _speed(
+        "lambda_outer", lambda_outer, "Ms_outer", Ms_outer, outside, _time_of(primary) + secondary.theta + lambda_b
+    )
+    Ca = outside(lambda_a).controllers[1]
+    loop = CascadeLoop(primary, secondary, Ca, Cb)
+    notes = [
+        *_on_filter("inner", inner, Cb, N_inner),
+        *_on_filter("outer", outer, Ca, N_outer),
+        *_on_dead_time("secondary", secondary, secondary.theta),
+        *_on_dead_time("primary", primary, primary.theta + secondary.theta),
+        *_on_inner(loop),
+    ]
+    return CascadeDesign(loop, Cb, Ca, lambda_inner=lambda_b, lambda_outer=lambda_a, notes=tuple(notes))
+
+
+def _order(name: str, kind: str) -> int:
+    if kind not in KINDS:
+        raise InvalidParameter(f"{name} must be PI or PID, got {str(kind)[:20]}")
+    return KINDS.index(kind) + 1
+
+
+def _tuned(
+    model: Model, tau_c: float | None, loop: str, Ms: float | None, closed: Callable[[Controller], NestedLoops]
+) -> tuple[Controller, float]:
+    """SIMC controller of one loop, and its tau_c."""
+    if tau_c is not None and Ms is not None:
+        raise InvalidParameter(f"only one of tau_c_{loop} and Ms_{loop} may be given, got {tau_c:g} and {Ms:g}")
+    scale = next(iter(tau_c_presets(model).values()), 1.0)
+    if Ms is None and tau_c is None:
+        tau_c = scale
+
+    def at(speed: float) -> NestedLoops:
+        return closed(_filtered(simc(model, speed), speed))
+
+    found = _speed(f"tau_c_{loop}", tau_c, f"Ms_{loop}", Ms, at, scale)
+    return at(found).controllers[-1], found
+
+
+def _filtered(controller: Controller, tau_c: float) -> Controller:
+    """With the filter of a PID."""
+    if isinstance(controller, IController) or controller.tau_D == 0:
+        return controller
+    return replace(controller, tau_F=tau_c / FILTER)
+
+
+def _speed(name: str, given: float | None, Ms_name: str, Ms: float | None, at, scale: float) -> float:
+    """lambda or tau_c as given, else the one Ms asks for."""
+    if given is not None:
+        return checks.positive_time(name, given)
+    Ms = checks.real(Ms_name, Ms, LOWEST_MS, HIGHEST_MS)
+    return fastest(at, Ms, scale, name, Ms_name)
+
+
+def _time_of(block: Plant) -> float:
+    return block.theta + sum(map(abs, block.lags)) + sum(tau for tau, _ in block.lag_pairs) or 1.0
+
+
+def _on_filter(loop: str, kind: str, controller: ParallelPid, N: float | None) -> list[str]:
+    if kind == "PI" or controller.Kd * controller.Ki > 0:
+        return []
+    if loop == "inner":
+        other = "N_inner = 1, or a PI inside"
+    else:
+        other = "N_outer = 1" if N is None else "N_outer = 1, the filter that cancels the inner zero"
+        other += ", or a PI outside"
+    return [
+        f"Kd of the {loop} controller should have the sign of Ki = {controller.Ki:.4g}, got {controller.Kd:.4g} "
+        f"with tau_F = {controller.tau_F:.4g}: try {other}"
+    ]
+
+
+def _on_dead_time(name: str, block: Plant, theta: float) -> list[str]:
+    slowest = max([*map(abs, block.lags), *(tau for tau, _ in block.lag_pairs)], default=0.0)
+    if block.integrators or theta <= DOMINANT * slowest:
+        return []
+    return [
+        f"theta = {theta:.4g} in the loop of the {name} block should be <= {slowest:.4g}, its slowest time constant: "
+        "direct synthesis is not meant for dominating dead time, compare with SIMC"
+    ]
+
+
+def _on_inner(loop: CascadeLoop) -> list[str]:
+    found = stability(loop.inner_loop)
+    if found.verdict == "stable":
+        return []
+    return [
+        f"the inner loop is {found.verdict} on its own, with {found.unstable_poles} unstable poles: its margins mean "
+        "nothing, and it runs away when the outer loop saturates or is in manual; give the inner loop a larger "
+        "tau_c or lambda"
+    ]

@@ -1,0 +1,139 @@
+"""Nested loops, each block with its own dead time; a cascade is two of them.
+
+    r -->[C_N]--> ... -->[C_1]-->(+)-->[G_1]--+-->(+)-->[G_2]--+--> ... -->[G_N]--+--> y_N
+                                  ^           |    ^           |                  |
+                                 d_1         y_1  d_2         y_2                y_N
+
+Counted from the inside out. Controller i sees y_i, and its set point is what controller i + 1 puts out. Only the
+outermost one uses its set-point weights; the others act on the error, so that with the loops inside closed
+
+    L_i = C_i G_i T_{i-1}      T_i = L_i/(1 + L_i)      T_0 = 1
+
+Closed-loop poles: 1 + L_1 = 0 with the loops 1..i closed becomes 1 + A_1 + ... + A_i = 0, A_i = prod_{j<=i} C_j G_j.
+A controller may be missing: y_i is then not fed back, C_i = 1 and T_i = G_i T_{i-1}.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core import checks
+from simc_core.controllers import Controller
+from simc_core.errors import InvalidParameter
+from simc_core.factors import Factored, factors
+from simc_core.loop import FrequencyResponse, Loop, at_frequencies, frequency_response
+from simc_core.plant import Plant
+
+MOST_LOOPS = 6
+ONE = Factored(1.0, factors(), factors())
+
+
+@dataclass(frozen=True, slots=True)
+class NestedLoops:
+    """blocks and controllers from the inside out; see the module docstring. None: y_i is not fed back.
+
+    Raises InvalidParameter: lists of different length, no block or more than MOST_LOOPS, no outermost controller.
+    """
+
+    blocks: tuple[Plant, ...]
+    controllers: tuple[Controller | None, ...]
+
+    def __post_init__(self):
+        put = object.__setattr__
+        put(self, "blocks", checks.items("blocks", self.blocks, MOST_LOOPS))
+        put(self, "controllers", checks.items("controllers", self.controllers, MOST_LOOPS))
+        if len(self.blocks) != len(self.controllers) or not self.blocks:
+            raise InvalidParameter(
+                f"blocks and controllers must be as many, at least one, got {len(self.blocks)} and "
+                f"{len(self.controllers)}"
+            )
+        if self.controllers[-1] is None:
+            raise InvalidParameter("the outermost controller must be given, got None")
+
+    @property
+    def inside(self) -> "NestedLoops | None":
+        """The next feedback loop inside the outermost one; None where there is none."""
+        for count in range(len(self.blocks) - 1, 0, -1):
+            if self.controllers[count - 1] is not None:
+                return NestedLoops(self.blocks[:count], self.controllers[:count])
+        return None
+
+    @property
+    def own(self) -> Factored:
+        """What the outermost loop has in series with the closed loop inside it: controller and blocks between."""
+        count = len(self.inside.blocks) if self.inside else 0
+        product = self.controllers[-1].factored
+        for block in self.blocks[count:]:
+            product = product * block.factored
+        return product
+
+    @property
+    def terms(self) -> list[Factored]:
+        """A_i of all controllers: 1 + their sum = 0 holds the closed-loop poles."""
+        product, found = ONE, []
+        for block, controller in zip(self.blocks, self.controllers, strict=True):
+            product = product * block.factored
+            if controller is not None:
+                product = product * controller.factored
+                found.append(product)
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class CascadeLoop:
+    """Two nested loops: primary = Ga under `outer`, secondary = Gb under `inner`.
+
+    d2 enters at the input of Gb, d1 at the input of Ga. inner=None: no inner loop, `outer` drives Gb directly, which
+    is the single-loop alternative with the same disturbances.
+    """
+
+    primary: Plant
+    secondary: Plant
+    outer: Controller
+    inner: Controller | None
+
+    @property
+    def nested(self) -> NestedLoops:
+        """The same from the inside out."""
+        return NestedLoops((self.secondary, self.primary), (self.inner, self.outer))
+
+    @property
+    def inner_loop(self) -> Loop:
+        """The inner loop on its own. Raises InvalidParameter where there is none."""
+        if self.inner is None:
+            raise InvalidParameter("inner must be a controller for the inner loop to exist, got None")
+        return Loop(self.secondary, self.inner)
+
+    @property
+    def outer_loop(self) -> NestedLoops:
+        """The outer loop with the inner one closed: margins of it are those of La = Ca Ga Tb."""
+        return self.nested
+
+
+def closed_inside(loops: NestedLoops, s: np.ndarray) -> np.ndarray:
+    """Whatever the outermost controller sees before the block next to it: T of the loop inside, 1 if none."""
+    if loops.inside is None:
+        return np.ones_like(s)
+    L = open_loop(loops.inside, s)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        return np.where(np.abs(L) > 1, 1 / (1 + 1 / L), L / (1 + L))
+
+
+def open_loop(loops: NestedLoops, s: np.ndarray) -> np.ndarray:
+    """L(s) of the outermost loop with all the others closed; complex, shape of s."""
+    return loops.own(s) * closed_inside(loops, s)
+
+
+@frequency_response.register
+def _(loop: NestedLoops, omega) -> FrequencyResponse:
+    """Of the outermost loop; GS is from the disturbance at the input of the outermost block to its output."""
+    omega = at_frequencies(omega)
+    s = 1j * omega
+    L, C, G = open_loop(loop, s), loop.controllers[-1].factored(s), loop.blocks[-1].factored(s)
+    S = 1 / (1 + L)
+    return FrequencyResponse(omega, L, S, L * S, C * S, G * S)
+
+
+@frequency_response.register
+def _(loop: CascadeLoop, omega) -> FrequencyResponse:
+    return frequency_response(loop.nested, omega)
