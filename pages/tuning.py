@@ -4,12 +4,13 @@ import streamlit as st
 
 from pages.common import guards, header, live
 from pages.common.design_table import design_table, pin_button, pinned_studies
+from pages.common.model_error_view import model_error_view
 from pages.common.panels import open_loop, panels
 from pages.common.readout import readout
 from pages.common.study import study
 from pages.common.tuning_widgets import settings, structure, tau_c_control
 
-VIEWS = ("Live", "Figures", "Bode of L", "Compare")
+VIEWS = ("Live", "Figures", "Bode of L", "Model error", "Compare")
 
 design = header.show("tuning")
 with guards.spoken():
@@ -24,7 +25,9 @@ with guards.spoken():
         guards.show(present)
     with view:
         studies = [("present", present), *pinned_studies(design.plant, design.pins)]
-        instrument, figures, bode, table = st.tabs(VIEWS, key="views", on_change="rerun")  # only the open one is made
+        instrument, figures, bode, error, table = st.tabs(
+            VIEWS, key="views", on_change="rerun"
+        )  # only the open one is made
         if instrument.open:
             with instrument:
                 live.instrument(design.plant, studies)
@@ -35,6 +38,9 @@ with guards.spoken():
         if bode.open:
             with bode:
                 open_loop(studies)
+        if error.open:
+            with error:
+                model_error_view(present)
         if table.open:
             with table:
                 design_table(studies)

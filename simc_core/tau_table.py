@@ -20,8 +20,8 @@ from simc_core.models import FirstOrderDelay, Model, SecondOrderDelay
 
 PER_DECADE = 14
 STENCIL = 4
-TOLERANCE = 5e-4  # of a curve's range, at the midpoints: a quarter of what the reader is promised
-MOST_ROWS = 480
+TOLERANCE = 1e-3  # of a curve's range, at the midpoints: half of what the reader is promised
+MOST_ROWS = 320
 NEAR = 1e-7
 
 Curves = Sequence[np.ndarray]  # each of shape (rows, points)

@@ -18,7 +18,7 @@ ORDER = [
     {"characteristic", "winding", "logresponse", "crossings"},
     {"stability", "poles", "margins"},
     {"half_rule", "simulation", "model_error"},  # the half rule judges its candidates by their Ms
-    {"performance"},
+    {"performance", "robustness"},
     {"sweep", "tau_table", "cascade", "direct_synthesis"},
     {"examples", "references"},
 ]
