@@ -166,6 +166,8 @@ class Client:
             if message.metadata.cacheable and message.hash not in self.kept:
                 self.kept.append(message.hash)
             if message.WhichOneof("type") == "script_finished":
+                if message.script_finished != ForwardMsg.FINISHED_SUCCESSFULLY or not self.kept:
+                    raise RuntimeError("the page did not run")  # the table is large enough to be kept
                 return 1000 * (time.perf_counter() - begin)
 
 

@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages.common import guards, header, live
+from pages.common import guards, header, live, state
 from pages.common.design_table import design_table, pin_button, pinned_studies
 from pages.common.model_error_view import model_error_view
 from pages.common.panels import open_loop, panels
@@ -18,7 +18,7 @@ with guards.spoken():
     with st.container(key="tuning"):
         controls, view = st.columns([4, 11], gap="medium")
     with controls:
-        tau_c_control(present.model, present.tau_c)
+        tau_c_control(present.model, present.tau_c, slider=state.widget("views", VIEWS[0]) != VIEWS[0])
         structure()
         settings(present)
         pin_button(design.tuning, present.tau_c)

@@ -21,6 +21,9 @@ FIELDS = {"series": ("Kc", "tau_I", "tau_D"), "ideal": ("Kc", "tau_I", "tau_D"),
 STYLE = """<style>
 .st-key-presets {display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem}
 .st-key-presets button {min-height: 2rem; padding: 0 0.5rem}
+@media (max-width: 640px) { /* what moves comes first, what is set once below it */
+  .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
+}
 </style>"""
 STRUCTURE = {
     "series": r"K_c \frac{\tau_I s+1}{\tau_I s}(\tau_D s+1)",
@@ -29,17 +32,36 @@ STRUCTURE = {
 }
 
 
-def tau_c_control(model: Model, tau_c: float) -> None:
-    """tau_c: slider, logarithmic and relative to theta, exact number beside it, presets below."""
+def tau_c_control(model: Model, tau_c: float, slider: bool = True) -> None:
+    """tau_c: slider, logarithmic and relative to theta, exact number beside it, presets below.
+
+    slider=False: without it, where the live instrument has one.
+    """
+    st.html(STYLE)
     if isinstance(model, UnstableDelay):
         st.markdown(f"$\\tau_c = \\theta$ = **{number(tau_c)}**")
         st.caption("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24].")
         return
+    place = st.container()
+    if slider:
+        slide, place = st.columns([5, 3], vertical_alignment="bottom", gap="small")
+        with slide:
+            _slider(model, tau_c)
+    place.number_input(
+        "exactly" if slider else r"$\tau_c$ exactly",
+        min_value=1 / LONGEST_TIME,
+        max_value=LONGEST_TIME,
+        step=None,
+        format="%.6g",
+        **state.bound("tau_c", show=lambda value: float(value or tau_c), key="tau_c_exact"),
+    )
+    _presets(model, tau_c)
+
+
+def _slider(model: Model, tau_c: float) -> None:
     scale, unit = (model.theta, "θ") if model.theta else (tau_c_presets_or_one(model), "")
     ratios = [10 ** (i / STEPS_PER_DECADE) for i in range(SHORTEST * STEPS_PER_DECADE, LONGEST * STEPS_PER_DECADE + 1)]
-    st.html(STYLE)
-    slide, exact = st.columns([5, 3], vertical_alignment="bottom", gap="small")
-    slide.select_slider(
+    st.select_slider(
         r"Speed: $\tau_c$",
         ratios,
         format_func=lambda ratio: f"{number(ratio, 3)} {unit}".strip(),
@@ -52,15 +74,6 @@ def tau_c_control(model: Model, tau_c: float) -> None:
             key="tau_c_slider",
         ),
     )
-    exact.number_input(
-        "exactly",
-        min_value=1 / LONGEST_TIME,
-        max_value=LONGEST_TIME,
-        step=None,
-        format="%.6g",
-        **state.bound("tau_c", show=lambda value: float(value or tau_c), key="tau_c_exact"),
-    )
-    _presets(model, tau_c)
 
 
 def tau_c_presets_or_one(model: Model) -> float:

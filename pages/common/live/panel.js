@@ -184,6 +184,9 @@ class Panel {
     if (this.note) {
       ctx.font = `600 ${13 * ratio}px ${theme.font}`;
       ctx.textAlign = "center";
+      const width = ctx.measureText(this.note).width + 16 * ratio;
+      ctx.fillStyle = theme.page;
+      ctx.fillRect(bbox.left + (bbox.width - width) / 2, bbox.top + 4 * ratio, width, 19 * ratio);
       ctx.fillStyle = ALARM;
       ctx.fillText(this.note, bbox.left + bbox.width / 2, bbox.top + 18 * ratio);
     }
