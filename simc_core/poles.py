@@ -7,8 +7,9 @@ dz_j/dt = (2/theta) sum_k D_jk z_k with the Chebyshev differentiation matrix, fe
     d/dt [x; z_1..z_N] = [[A, -B e_N'], [d C, D_11 - d D e_N']] [x; z_1..z_N],      d = column 0 of the matrix
 
 (Breda, Maset and Vermiglio 2005: the discretised generator). Its eigenvalues approach the rightmost poles faster than
-any power of N; Newton on 1 + L(s) = 0 takes them to full precision, and drops what is no pole. Poles that
-a zero of the controller cancels are not in 1 + L: they are known exactly, and reported as well.
+any power of N. Those of high frequency, a chain with one pole per turn of the dead time, start from their asymptotes
+instead. Newton on 1 + L(s) = 0 takes all to full precision, and drops what is no pole. Poles that a zero of
+the controller cancels are not in 1 + L: they are known exactly, and reported as well.
 """
 
 from collections import Counter
@@ -23,6 +24,8 @@ from simc_core.realisation import chain
 FEWEST_NODES, MOST_NODES = 20, 120
 NODES_PER_RADIAN = 1.0  # beyond FEWEST_NODES, for theta omega of the fastest oscillation worth seeing
 NEWTON_STEPS = 12
+CHAIN_STEPS = 3
+FAR_LEFT = -(2.0 ** np.arange(0.0, 6.0, 0.25))  # theta s of real poles that the discretisation has not resolved
 SETTLED = 1e-12
 
 
@@ -49,7 +52,9 @@ def dominant_poles(loop: Loop, most: int = 8) -> tuple[ClosedLoopPole, ...]:
     if L.relative_degree < 0:
         return ()
     reduced, hidden = _without_common(L)
-    found = _polished(reduced, rightmost(reduced)[: 4 * most])
+    found = _polished(
+        reduced, np.concatenate([rightmost(reduced)[: 16 + 4 * most], _chain_start(reduced, 8 + 2 * most)])
+    )
     poles = [_described(s, False) for s in found] + [_described(s, True) for s in hidden if s.imag >= 0]
     return tuple(sorted(poles, key=_from_right)[:most])
 
@@ -102,8 +107,8 @@ def _without_common(L: Factored) -> tuple[Factored, np.ndarray]:
 
 
 def _polished(L: Factored, start: np.ndarray) -> list[complex]:
-    """Solutions of 1 + L = 0 in the upper half plane that Newton finds close to `start`, each once."""
-    s = start[start.imag >= 0].astype(complex)
+    """Solutions of 1 + L = 0 in the upper half plane that Newton finds from `start`, each once."""
+    s = start[start.imag >= 0].astype(complex)  # a copy
     step = np.zeros_like(s)
     with np.errstate(all="ignore"):
         for _ in range(NEWTON_STEPS):
@@ -112,13 +117,27 @@ def _polished(L: Factored, start: np.ndarray) -> list[complex]:
             s = s - step
             if np.all(np.abs(step) <= SETTLED * np.abs(s)):
                 break
-        good = (np.abs(step) <= 1e-9 * np.abs(s)) & (np.abs(s - start[start.imag >= 0]) <= 0.1 * np.abs(s))
+        good = np.abs(step) <= 1e-9 * np.abs(s)
     found: list[complex] = []
     for value in s[good]:
         value = complex(value.real, 0.0 if abs(value.imag) <= 1e-10 * abs(value) else abs(value.imag))
         if all(abs(value - other) > 1e-7 * abs(value) for other in found):
             found.append(value)
     return found
+
+
+def _chain_start(L: Factored, count: int) -> np.ndarray:
+    """First guesses for the poles that dead time adds, one per turn of its phase: theta s = log(-P(s)) + 2 pi j n,
+    P = L e^{theta s}, by fixed-point steps, which contract at high frequency; n = 0 is on the real axis, far left.
+    """
+    if L.theta == 0:
+        return np.array([], dtype=complex)
+    P = Factored(L.gain, L.num, L.den)
+    turns = 2j * np.pi * np.arange(1, count + 1)
+    s = turns / L.theta
+    for _ in range(CHAIN_STEPS):
+        s = (np.log(-P(s)) + turns) / L.theta
+    return np.concatenate([s[np.isfinite(s)], FAR_LEFT / L.theta])
 
 
 def _log_derivative(L: Factored, s: np.ndarray) -> np.ndarray:

@@ -134,9 +134,14 @@ class _Term:
 
 
 def _values(rows: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    """a s^2 + b s + c at s = j omega, shape (factors, frequencies)."""
+    """a s^2 + b s + c at s = j omega, shape (factors, frequencies).
+
+    At omega = 0 the imaginary part keeps the sign of b, so that the argument there is the limit from above.
+    """
     a, b, c = rows.T[:, :, None]
-    return (c - a * omega**2) + 1j * (b * omega)
+    value = np.empty((len(rows), omega.size), dtype=complex)
+    value.real, value.imag = c - a * omega**2, b * omega
+    return value
 
 
 def _quotient(top: np.ndarray, bottom: np.ndarray) -> np.ndarray:

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.special import lambertw
 
 from simc_core import (
     IController,
@@ -16,6 +17,7 @@ from simc_core import (
     count_unstable,
     stability,
 )
+from simc_core.characteristic import shifted
 from simc_core.factors import Factored, factors
 from simc_core.poles import rightmost
 
@@ -134,6 +136,23 @@ def test_ill_posed():
 )
 def test_special_loops(plant, controller, expected):
     assert verdict(plant, controller) == expected
+
+
+@pytest.mark.parametrize(("Kp", "Kd"), [(5.0, 1.0), (0.3, 1.0), (7.0, 30.0), (300.0, 2.0)])
+def test_both_signs_turned_is_the_same_loop(Kp, Kd):
+    """A zero and a pole with negative coefficients turn the other way at omega = 0."""
+    lags = (40.0, 2.0)
+    turned = verdict(Plant(-1.0, 1.0, lags), ParallelPid(-Kp, 0.0, -Kd))
+    assert turned == verdict(Plant(1.0, 1.0, lags), ParallelPid(Kp, 0.0, Kd))
+
+
+def test_contour_close_to_a_real_pole():
+    """5 s + 1 + 4 e^{-s}, s = x real right of the axis for k = -4: one pole, wherever the contour is to its left."""
+    L = Loop(Plant(-4.0, 1.0, (5.0,)), SeriesPid(1.0, math.inf)).L
+    x = float(np.real(lambertw(4 / 5 * math.exp(0.2)))) - 0.2
+    for off in (1e-9, 1e-7, 1e-4, 0.01, 0.5):
+        assert count_unstable([shifted(L, x * (1 - off))]).unstable_poles == 1
+        assert count_unstable([shifted(L, x * (1 + off))]).unstable_poles == 0
 
 
 def test_several_delays_in_closed_form():
