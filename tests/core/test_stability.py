@@ -138,12 +138,13 @@ def test_special_loops(plant, controller, expected):
     assert verdict(plant, controller) == expected
 
 
-@pytest.mark.parametrize(("Kp", "Kd"), [(5.0, 1.0), (0.3, 1.0), (7.0, 30.0), (300.0, 2.0)])
-def test_both_signs_turned_is_the_same_loop(Kp, Kd):
-    """A zero and a pole with negative coefficients turn the other way at omega = 0."""
-    lags = (40.0, 2.0)
-    turned = verdict(Plant(-1.0, 1.0, lags), ParallelPid(-Kp, 0.0, -Kd))
-    assert turned == verdict(Plant(1.0, 1.0, lags), ParallelPid(Kp, 0.0, Kd))
+@pytest.mark.parametrize("excess", [1e-2, 1e-4, 1e-8])
+@pytest.mark.parametrize("Kd", [0.01, 1.0, 30.0])
+def test_one_pole_just_right_of_the_origin_whatever_the_signs(Kd, excess):
+    """1 + L(0) = -excess: one real pole. A factor -Kd s - Kp turns from -pi at omega = 0, not from pi."""
+    Kp, lags = 1 + excess, (40.0, 2.0)
+    assert verdict(Plant(1.0, 1.0, lags), ParallelPid(-Kp, 0.0, -Kd)) == ("unstable", 1)
+    assert verdict(Plant(-1.0, 1.0, lags), ParallelPid(Kp, 0.0, Kd)) == ("unstable", 1)
 
 
 def test_contour_close_to_a_real_pole():
