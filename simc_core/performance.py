@@ -23,7 +23,8 @@ from simc_core.simulation.system import closed_loop
 from simc_core.stability import stability
 
 REST = 1e-9
-MOST_DOUBLINGS = 12
+ROUNDING = 1e-6  # a stiff loop whose values no longer come nearer to rest than this has reached its rounding errors
+MOST_DOUBLINGS = 6
 HORIZON = 6.0  # first horizon, in times to settle to 1 %
 NOISE = 1e-11  # of the largest value; a signal this small has come to rest, its signs are rounding
 SAMPLES = np.cos(np.pi * np.arange(32, -1, -1) / 32)  # where sign changes are looked for in a piece
@@ -81,13 +82,16 @@ def performance(loop: Loop) -> Performance:
 
 def _to_rest(loop: Loop) -> Pieces:
     system, t_end = closed_loop(loop), HORIZON * settling_horizon(loop)
+    before = np.inf
     for _ in range(MOST_DOUBLINGS):
         pieces = unit_steps(system, t_end)
         left, right = pieces.ends()
         late = pieces.edges[1:] >= 0.75 * pieces.edges[-1]
         change = np.max(np.abs(np.stack([left[late], right[late]]) - right[-1]), axis=(0, 1))
-        if np.all(change <= REST * (np.max(np.abs(right), axis=0) + 1e-300)):
+        moving = float(np.max(change / (np.max(np.abs(right), axis=0) + 1e-300)))
+        if moving <= REST or before / 2 < moving <= ROUNDING:
             return pieces
+        before = moving
         t_end *= 2
     raise NotStable(f"the loop must come to rest within {t_end:.3g}, got one too close to its stability limit")
 

@@ -15,7 +15,7 @@ from simc_core.simulation.system import closed_loop
 
 SETTLED = 4.6  # time constants of the slowest mode, e^{-4.6} = 1 %
 GROWN = 6.0  # time constants of an unstable mode that are shown
-LONGEST = 1e3  # default horizon, in units of all times of plant and controller together
+LONGEST = 1e5  # default horizon, in units of all times of plant and controller together
 JUMP = 1e-9  # of the largest value; smaller steps between pieces are rounding
 MOST_JUMPS = 400
 NICE = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
