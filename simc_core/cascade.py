@@ -1,8 +1,9 @@
 """Stability and margins of nested loops (nested.py), everything exact.
 
 The verdict comes from the certificate on 1 + A_1 + ... + A_N. Margins of a loop mean something only where it is
-stable AND every loop inside it is: else the outer controller holds up an inner loop that falls over as soon as the outer
-one saturates or is switched to manual. Such a cascade has the verdict of the whole and `inner` of the loop inside.
+stable AND every loop inside it is: else the outer controller holds up an inner loop that falls over as soon as
+the outer one saturates or is switched to manual. Such a cascade has the verdict of the whole and `inner` of the
+loop inside.
 """
 
 import math

@@ -1,8 +1,8 @@
 """Design of cascades: SIMC inside and outside, or direct synthesis, with given speeds or given peaks Ms.
 
 SIMC inner loop: half rule on Gb, tau_c = theta unless given. It then behaves as e^{-theta s}/(tau_c s + 1), theta and
-tau_c those of the inner design: behind Ga that is the outer plant, reduced and tuned the same way. A PID gets the filter
-tau_F = tau_c/20. The loops separate where tau_c_outer >= SEPARATE tau_c_inner.
+tau_c those of the inner design: behind Ga that is the outer plant, reduced and tuned the same way. A PID gets the
+filter tau_F = tau_c/20. The loops separate where tau_c_outer >= SEPARATE tau_c_inner.
 
 Where Ms is given instead, the smallest tau_c (or lambda) is taken at which the loop is stable and has it.
 """
@@ -76,9 +76,7 @@ def simc_cascade(
     Cb, tau_cb = _tuned(model, tau_c_inner, "inner", Ms_inner, lambda C: NestedLoops((secondary,), (C,)))
     effective = replace(primary, theta=primary.theta + model.theta, lags=(*primary.lags, tau_cb))
     reduced = half_rule(effective, _order("outer", outer)).model
-    Ca, tau_ca = _tuned(
-        reduced, tau_c_outer, "outer", Ms_outer, lambda C: NestedLoops((secondary, primary), (Cb, C))
-    )
+    Ca, tau_ca = _tuned(reduced, tau_c_outer, "outer", Ms_outer, lambda C: NestedLoops((secondary, primary), (Cb, C)))
     Ca = Ca if isinstance(Ca, IController) else replace(Ca, b=b)
     notes = []
     if tau_ca < SEPARATE * tau_cb:

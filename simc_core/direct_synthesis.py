@@ -45,7 +45,7 @@ def direct_synthesis(
 
     inside: the closed loop that drives the process.   N: tau_F = lambda_/N for a PID, unless tau_F is given.
     kd <= 0 may come out: then another filter is needed, see filter_advice.
-    Raises InvalidParameter: lambda_, N or kind out of bounds, more than MOST_POLES poles, a block that is zero at s = 0.
+    Raises InvalidParameter: lambda_, N or kind out of bounds, more than MOST_POLES poles, a block zero at s = 0.
     """
     lambda_ = checks.positive_time("lambda_", lambda_)
     if kind not in KINDS:
@@ -104,7 +104,7 @@ def _power(lambda_: float, p: int) -> np.ndarray:
 
 
 def _numerator(process: Plant, lambda_: float, tau: float, p: int) -> np.ndarray:
-    """The linear equations for eta, one a pole; time is measured in units of the slowest pole, for good conditioning."""
+    """The linear equations for eta, one a pole; time in units of the slowest pole, for good conditioning."""
     n = process.order
     if n == 0:
         return np.ones(1)
@@ -128,6 +128,4 @@ def _derivatives(q: complex, lambda_: float, tau: float, p: int, count: int) -> 
     """e^{tau s} (lambda s + 1)^p and its first derivatives at q, by Leibniz."""
     powers = [math.perm(p, j) * lambda_**j * (lambda_ * q + 1) ** (p - j) if j <= p else 0.0 for j in range(count)]
     grown = np.exp(tau * q)
-    return [
-        grown * sum(math.comb(j, i) * tau ** (j - i) * powers[i] for i in range(j + 1)) for j in range(count)
-    ]
+    return [grown * sum(math.comb(j, i) * tau ** (j - i) * powers[i] for i in range(j + 1)) for j in range(count)]
