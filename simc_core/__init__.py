@@ -1,6 +1,9 @@
 """SIMC tuning of PI/PID controllers, with exact dead time. See README for a ten-line example."""
 
+from simc_core.cascade import NestedStability
+from simc_core.cascade_design import CascadeDesign, simc_cascade, synthesis_cascade
 from simc_core.controllers import IController, IdealPid, ParallelPid, SeriesPid
+from simc_core.direct_synthesis import direct_synthesis
 from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStable, ParseError, SimcError
 from simc_core.half_rule import half_rule
 from simc_core.loop import FrequencyResponse, Loop, frequency_response
@@ -13,6 +16,7 @@ from simc_core.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
+from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.parse import parse_plant
 from simc_core.performance import Performance, StepMetrics, performance
 from simc_core.plant import Plant

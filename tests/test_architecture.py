@@ -16,10 +16,10 @@ ORDER = [
     {"exact", "parse", "notation", "plant_step", "simc", "loop"},
     {"reduction", "dynamics", "zeros", "zeros_1998", "split", "story", "advice"},
     {"characteristic", "winding", "logresponse", "crossings"},
-    {"stability", "poles", "margins"},
+    {"stability", "poles", "margins", "laurent", "nested"},
     {"half_rule", "simulation", "model_error"},  # the half rule judges its candidates by their Ms
     {"performance", "robustness"},
-    {"sweep", "tau_table", "cascade", "direct_synthesis"},
+    {"sweep", "tau_table", "cascade", "direct_synthesis", "fastest", "cascade_design"},
     {"examples", "references"},
 ]
 LEVEL = {name: level for level, names in enumerate(ORDER) for name in names}
