@@ -53,8 +53,7 @@ class Panel {
       stroke: theme.text,
       font: `${Math.round(11 * scale)}px ${theme.font}`,
       labelFont: `${Math.round(11.5 * scale)}px ${theme.font}`,
-      label: spec[side].label,
-      labelSize: 17 * scale,
+      ...(spec[side].label && { label: spec[side].label, labelSize: 17 * scale }),
       labelGap: 0,
       size: (side === "x" ? 22 : 44) * scale,
       gap: 3,
@@ -67,7 +66,7 @@ class Panel {
     const options = {
       width: Math.max(60, this.plot.clientWidth),
       height: Math.max(60, this.plot.clientHeight),
-      padding: [6, 10, 0, 0],
+      padding: [8 * scale, 14 * scale, 0, 0],
       legend: { show: false },
       scales: {
         x: { time: false, distr: spec.x.log ? 3 : 1, range: (u) => this.limits(u).x },

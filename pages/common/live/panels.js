@@ -104,11 +104,11 @@ function circle(Ms) {
 const TRADE_OFFS = [
   ["peaks", "Ms, Mt", true, [["Ms", "Ms", S_LINE], ["Mt", "Mt", Y]], [[1.4, 1.7]]],
   ["gain", "Gain margin", true, [["GM", "GM", Y]]],
-  ["phase", "Phase margin", false, [["PM_deg", "PM [°]", Y]]],
-  ["delay", "Delay margin", true, [["delay_margin", "delay margin [time unit]", Y]]],
-  ["iae", "IAE", true, [["IAE_setpoint", "set point", Y], ["IAE_load", "load", U]]],
-  ["tv", "TV of u", true, [["TV_setpoint", "set point", Y], ["TV_load", "load", U]]],
-  ["overshoot", "Overshoot, noise gain", false, [["overshoot", "overshoot [–]", Y], ["noise_gain", "noise gain max |KS|", U]]],
+  ["phase", "Phase margin [°]", false, [["PM_deg", "PM", Y]]],
+  ["delay", "Delay margin [time]", true, [["delay_margin", "DM", Y]]],
+  ["iae", "IAE", true, [["IAE_setpoint", "r step", Y], ["IAE_load", "d step", U]]],
+  ["tv", "TV of u", true, [["TV_setpoint", "r step", Y], ["TV_load", "d step", U]]],
+  ["overshoot", "Overshoot, noise", false, [["overshoot", "overshoot", Y], ["noise_gain", "max |KS|", U]]],
 ];
 
 function tradeOffPanels(table, scale) {
@@ -133,7 +133,7 @@ function tradeOffPanels(table, scale) {
       bands: () => [...bands.map(([from, to]) => ({ axis: "y", from, to, color: CALM_BAND })), ...stability()],
       tell: (panel, at) => {
         const i = nearest(ratios, at);
-        return [`${x.label} = ${text(ratios[i], 3)}`, ...curves.map(([name, words]) => `${words.split(" [")[0]} ${text(column(name)[i])}`)].join("   ");
+        return [`${x.label} = ${text(ratios[i], 3)}`, ...curves.map(([name, words]) => `${words} ${text(column(name)[i])}`)].join("   ");
       },
     }, scale);
   });
