@@ -17,11 +17,12 @@ from simc_core.models import (
     UnstableDelay,
 )
 from simc_core.nested import CascadeLoop, NestedLoops
+from simc_core.nested_performance import NestedPerformance
 from simc_core.parse import parse_plant
 from simc_core.performance import Performance, StepMetrics, performance
 from simc_core.plant import Plant
 from simc_core.poles import ClosedLoopPole, dominant_poles
 from simc_core.reduction import Candidate, Reduction, Share, Step
 from simc_core.simc import simc, tau_c_presets
-from simc_core.simulation import Scenario, TimeResponse, simulate
+from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.stability import Stability, count_unstable, stability

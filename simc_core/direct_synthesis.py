@@ -44,7 +44,7 @@ def direct_synthesis(
     """Controller of `process`, see the module docstring.
 
     inside: the closed loop that drives the process.   N: tau_F = lambda_/N for a PID, unless tau_F is given.
-    kd <= 0 may come out: then another filter is needed, see filter_advice.
+    kd <= 0 may come out where N is large: a slower filter helps.
     Raises InvalidParameter: lambda_, N or kind out of bounds, more than MOST_POLES poles, a block zero at s = 0.
     """
     lambda_ = checks.positive_time("lambda_", lambda_)

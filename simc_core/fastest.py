@@ -72,6 +72,6 @@ def _instead(loops: list[NestedLoops], taus: np.ndarray, peaks: np.ndarray, name
         if count_unstable(loops[i].terms).verdict == "stable":
             return (
                 f"the smallest peak of a stable loop is about {peaks[i]:.3g}, at {name} = {taus[i]:.4g}; "
-                "ask for a larger one, or for PID instead of PI"
+                "ask for a larger one"
             )
     return f"no {name} between {taus[0]:.4g} and {taus[-1]:.4g} gives a stable loop with it; ask for a larger one"

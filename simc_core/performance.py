@@ -9,6 +9,7 @@ quarter of it. The truncation error is what a decaying mode still adds behind th
 
 import math
 from dataclasses import dataclass
+from functools import singledispatch
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -62,6 +63,7 @@ class Performance:
     disturbance: StepMetrics
 
 
+@singledispatch
 def performance(loop: Loop) -> Performance:
     """Metrics of both unit steps, see the module docstring.
 
@@ -77,7 +79,7 @@ def performance(loop: Loop) -> Performance:
     for name, offset, size in zip(("set-point", "load"), offsets, largest, strict=True):
         if abs(offset) > 1e-7 * max(size, 1e-300):
             raise NotStable(f"IAE needs a loop that settles without offset, got {offset:.4g} after a {name} step")
-    return Performance(_metrics(pieces, 0), _metrics(pieces, 1))
+    return Performance(step_metrics(pieces, 0), step_metrics(pieces, 1))
 
 
 def _to_rest(loop: Loop) -> Pieces:
@@ -96,7 +98,8 @@ def _to_rest(loop: Loop) -> Pieces:
     raise NotStable(f"the loop must come to rest within {t_end:.3g}, got one too close to its stability limit")
 
 
-def _metrics(pieces: Pieces, column: int) -> StepMetrics:
+def step_metrics(pieces: Pieces, column: int) -> StepMetrics:
+    """Metrics of y and u, the values of `pieces` (y, u) x (r, d), for column 0 (set point) or 1 (load)."""
     target = 1.0 - column
     y, u = pieces.coefficients[:, :, 0, column], pieces.coefficients[:, :, 1, column]
     e = -y

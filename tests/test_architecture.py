@@ -19,7 +19,7 @@ ORDER = [
     {"stability", "poles", "margins", "laurent", "nested"},
     {"half_rule", "simulation", "model_error"},  # the half rule judges its candidates by their Ms
     {"performance", "robustness"},
-    {"sweep", "tau_table", "cascade", "direct_synthesis", "fastest", "cascade_design"},
+    {"sweep", "tau_table", "cascade", "direct_synthesis", "fastest", "cascade_design", "nested_performance"},
     {"examples", "references"},
 ]
 LEVEL = {name: level for level, names in enumerate(ORDER) for name in names}

@@ -57,7 +57,7 @@ class Element:
 def element(system: DelaySystem, h: float) -> Element:
     """The element of length h."""
     n, m = system.B.shape
-    known = np.zeros((P, n, n + m * P + 2))
+    known = np.zeros((P, n, n + m * P + system.E.shape[1]))
     known[:, :, :n] = np.eye(n)
     for j in range(m):
         known[:, :, n + j * P : n + (j + 1) * P] = h * np.einsum("ij,n->inj", COLLOCATION, system.B[:, j])

@@ -15,6 +15,7 @@ MOST_POINTS = 100_000
 class Scenario:
     """A step of r at t = 0 and a step of d at the plant input at disturbance_time.
 
+    disturbance2, disturbance2_time: the same at the input of the innermost block of nested loops; others have none.
     setpoint, disturbance: heights.   disturbance_time, t_end: None for half the horizon, and a horizon in which the
     slowest mode of the loop settles to 1 %.   points: instants on the grid; at a jump both limits are added.
     t: explicit increasing instants, returned exactly as given, right-hand limits at jumps.
@@ -33,13 +34,16 @@ class Scenario:
     noise: float = 0.0
     seed: int = 0
     h: float = 0.0
+    disturbance2: float = 1.0
+    disturbance2_time: float | None = None
 
     def __post_init__(self):
         put = object.__setattr__
-        for name in ("setpoint", "disturbance"):
+        for name in ("setpoint", "disturbance", "disturbance2"):
             put(self, name, checks.real(name, getattr(self, name), -checks.LARGEST_GAIN, checks.LARGEST_GAIN))
-        if self.disturbance_time is not None:
-            put(self, "disturbance_time", checks.optional_time("disturbance_time", self.disturbance_time))
+        for name in ("disturbance_time", "disturbance2_time"):
+            if getattr(self, name) is not None:
+                put(self, name, checks.optional_time(name, getattr(self, name)))
         if self.t_end is not None:
             put(self, "t_end", checks.positive_time("t_end", self.t_end))
         put(self, "points", checks.whole("points", self.points, 2, MOST_POINTS))

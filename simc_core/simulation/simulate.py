@@ -1,6 +1,7 @@
 """Time responses of a loop: unit steps put together to a scenario."""
 
 import math
+from functools import singledispatch
 
 import numpy as np
 
@@ -21,6 +22,7 @@ MOST_JUMPS = 400
 NICE = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 
+@singledispatch
 def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
     """y and u for the scenario, exact dead time, from rest. Unstable loops are simulated as well.
 
@@ -35,15 +37,15 @@ def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
         t = np.linspace(0.0, t_end, scenario.points) if scenario.t is None else scenario.t
         course = actuated(loop, actuation, scenario.setpoint, scenario.disturbance, begins, max(t_end, float(t[-1])))
         y, u = course.at(t)
-        return TimeResponse(t, np.full(len(t), scenario.setpoint), _step(t, begins, scenario.disturbance), y, u)
+        return TimeResponse(t, np.full(len(t), scenario.setpoint), held(t, begins, scenario.disturbance), y, u)
     pieces = unit_steps(closed_loop(loop), t_end)
     heights = np.array([scenario.setpoint, scenario.disturbance])
     starts = np.array([0.0, begins])
-    t, left = (scenario.t, None) if scenario.t is not None else _grid(pieces, heights, starts, t_end, scenario.points)
+    t, left = (scenario.t, None) if scenario.t is not None else grid(pieces, heights, starts, t_end, scenario.points)
     outputs = sum(heights[i] * pieces(t - starts[i])[:, :, i] for i in range(2))
-    r, d = _step(t, 0.0, scenario.setpoint), _step(t, begins, scenario.disturbance)
+    r, d = held(t, 0.0, scenario.setpoint), held(t, begins, scenario.disturbance)
     if left is not None:
-        outputs[left] = sum(heights[i] * _left_limits(pieces, t[left] - starts[i])[:, :, i] for i in range(2))
+        outputs[left] = sum(heights[i] * left_limits(pieces, t[left] - starts[i])[:, :, i] for i in range(2))
         r[left[t[left] == 0.0]] = 0.0
         d[left[t[left] == begins]] = 0.0
     return TimeResponse(t, r, d, outputs[:, 0], outputs[:, 1])
@@ -89,14 +91,15 @@ def round_up(time: float) -> float:
     return next(nice * power for nice in NICE if nice * power >= time * (1 - 1e-9))
 
 
-def _step(t: np.ndarray, begins: float, height: float) -> np.ndarray:
+def held(t: np.ndarray, begins: float, height: float) -> np.ndarray:
+    """A step of `height` at t = begins."""
     return np.where(t >= begins, height, 0.0)
 
 
-def _grid(pieces: Pieces, heights, starts, t_end: float, points: int) -> tuple[np.ndarray, np.ndarray]:
+def grid(pieces: Pieces, heights, starts, t_end: float, points: int) -> tuple[np.ndarray, np.ndarray]:
     """Instants with jumps twice, and the indices of those that mean the left limit."""
     t = np.linspace(0.0, t_end, points)
-    jumps = np.concatenate([starts, *(jump_times(pieces, i) + starts[i] for i in range(2) if heights[i])])
+    jumps = np.concatenate([starts, *(jump_times(pieces, i) + starts[i] for i in range(len(heights)) if heights[i])])
     jumps = np.unique(jumps[jumps <= t_end])[:MOST_JUMPS]
     both = np.concatenate([t[~np.isin(t, jumps)], jumps, jumps])
     order = np.argsort(both, kind="stable")
@@ -113,7 +116,8 @@ def jump_times(pieces: Pieces, column: int) -> np.ndarray:
     return pieces.edges[:-1][np.any(size > JUMP * scale, axis=1)]
 
 
-def _left_limits(pieces: Pieces, t: np.ndarray) -> np.ndarray:
+def left_limits(pieces: Pieces, t: np.ndarray) -> np.ndarray:
+    """As pieces(t), left limits at edges."""
     at = np.searchsorted(pieces.edges, t * (1 - 1e-12), side="left") - 1
     values = np.zeros((len(t), *pieces.coefficients.shape[2:]))
     inside = (at >= 0) & (t > 0)

@@ -1,0 +1,72 @@
+"""Step metrics of nested loops over an infinite horizon: of y_N and u_1, for unit steps of r and of every d_i."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.errors import NotStable
+from simc_core.nested import CascadeLoop, NestedLoops
+from simc_core.performance import REST, StepMetrics, performance, step_metrics
+from simc_core.simulation.nested import time_scale
+from simc_core.simulation.network import network
+from simc_core.simulation.pieces import Pieces
+from simc_core.simulation.several_delays import Steps
+from simc_core.stability import stability
+
+BEGIN = 8.0  # first horizon, in units of all times of the loops together
+MOST_DOUBLINGS = 12
+ROUNDING = 1e-7  # a stiff loop that comes no nearer to rest than this has reached its rounding errors
+OFFSET = 1e-7
+
+
+@dataclass(frozen=True, slots=True)
+class NestedPerformance:
+    """setpoint: unit step of r.   disturbances: unit steps of d_1 .. d_N, from the inside out."""
+
+    setpoint: StepMetrics
+    disturbances: tuple[StepMetrics, ...]
+
+    @property
+    def disturbance(self) -> StepMetrics:
+        """d_N, at the input of the outermost block: d1 of a cascade."""
+        return self.disturbances[-1]
+
+    @property
+    def disturbance2(self) -> StepMetrics:
+        """d_1, at the input of the innermost block: d2 of a cascade."""
+        return self.disturbances[0]
+
+
+@performance.register
+def _(loop: CascadeLoop) -> NestedPerformance:
+    return performance(loop.nested)
+
+
+@performance.register
+def _(loop: NestedLoops) -> NestedPerformance:
+    verdict = stability(loop)
+    if verdict.verdict != "stable":
+        raise NotStable(f"step metrics exist for stable loops only, got a cascade that is {verdict.verdict}")
+    pieces, N = _to_rest(loop), len(loop.blocks)
+    y_and_u = pieces.coefficients[:, :, [N - 1, N]]
+    _, right = Pieces(pieces.edges, y_and_u).ends()
+    offset = np.abs(right[-1, 0] - np.array([1.0] + [0.0] * N))
+    if np.any(offset > OFFSET * np.max(np.abs(right[:, 0]), axis=0)):
+        raise NotStable(f"IAE needs loops that settle without offset, got {float(np.max(offset)):.4g}")
+    found = [step_metrics(Pieces(pieces.edges, y_and_u[:, :, :, [0, i or 1]]), min(i, 1)) for i in range(N + 1)]
+    return NestedPerformance(found[0], tuple(found[1:]))
+
+
+def _to_rest(loop: NestedLoops) -> Pieces:
+    steps, t_end, before = Steps(network(loop)), BEGIN * time_scale(loop), np.inf
+    for _ in range(MOST_DOUBLINGS):
+        steps.run(t_end)
+        pieces = steps.pieces()
+        left, right = pieces.ends()
+        late = pieces.edges[1:] >= 0.75 * pieces.edges[-1]
+        change = np.max(np.abs(np.stack([left[late], right[late]]) - right[-1]), axis=(0, 1))
+        moving = float(np.max(change / (np.max(np.abs(right), axis=0) + 1e-300)))
+        if moving <= REST or before / 2 < moving <= ROUNDING:
+            return pieces
+        before, t_end = moving, 2 * t_end
+    raise NotStable(f"the loops must come to rest within {t_end:.3g}, got ones too close to their stability limit")

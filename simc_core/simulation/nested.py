@@ -1,0 +1,149 @@
+"""Time responses of nested loops, exact, with all their dead times: unit steps put together to a scenario."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.nested import CascadeLoop, NestedLoops
+from simc_core.simulation.network import network
+from simc_core.simulation.pieces import Pieces
+from simc_core.simulation.scenario import Scenario
+from simc_core.simulation.several_delays import Steps
+from simc_core.simulation.simulate import grid, held, left_limits, round_up, simulate
+
+SETTLED = 0.01  # of the largest value; where a default horizon ends
+BEGIN = 2.0  # first horizon, in units of all times of the loops together
+MOST_DOUBLINGS = 7
+GROWN = 30.0  # an unstable response is shown until it is this large
+SAMPLES = 1500  # instants at which a horizon is judged
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NestedResponse:
+    """t, r of shape (n,); ds, ys, us (N, n) from the inside out: disturbances, outputs, controller outputs.
+
+    Of a cascade: y = y1, y2 and its set point r2, d = d1, d2, and u, the input of Gb.
+    """
+
+    t: np.ndarray
+    r: np.ndarray
+    ds: np.ndarray
+    ys: np.ndarray
+    us: np.ndarray
+
+    @property
+    def y(self) -> np.ndarray:
+        """Output of the outermost block."""
+        return self.ys[-1]
+
+    @property
+    def y2(self) -> np.ndarray:
+        """Output of the innermost block."""
+        return self.ys[0]
+
+    @property
+    def r2(self) -> np.ndarray:
+        """Output of the outermost controller: the set point of the next loop inside."""
+        return self.us[-1]
+
+    @property
+    def u(self) -> np.ndarray:
+        """Output of the innermost controller: what goes to the actuator."""
+        return self.us[0]
+
+    @property
+    def d(self) -> np.ndarray:
+        """Disturbance at the input of the outermost block."""
+        return self.ds[-1]
+
+    @property
+    def d2(self) -> np.ndarray:
+        """Disturbance at the input of the innermost block."""
+        return self.ds[0]
+
+
+@simulate.register
+def _(loop: CascadeLoop, scenario: Scenario | None = None) -> NestedResponse:
+    return simulate(loop.nested, scenario)
+
+
+@simulate.register
+def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
+    scenario = scenario or Scenario()
+    N = len(loop.blocks)
+    heights = np.zeros(1 + N)
+    heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d
+    steps = Steps(network(loop))
+    starts, t_end = _times(loop, steps, scenario, heights)
+    steps.run(t_end)
+    pieces = steps.pieces()
+    if scenario.t is not None:
+        t, left = scenario.t, None
+    else:
+        t, left = grid(pieces, heights, starts, t_end, scenario.points)
+    used = np.flatnonzero(heights)
+    outputs = np.zeros((len(t), 2 * N))
+    for i in used:
+        outputs += heights[i] * pieces(t - starts[i])[:, :, i]
+    inputs = np.array([held(t, start, height) for start, height in zip(starts, heights, strict=True)])
+    if left is not None:
+        outputs[left] = sum((heights[i] * left_limits(pieces, t[left] - starts[i])[:, :, i] for i in used), 0.0)
+        for i in range(1 + N):
+            inputs[i, left[t[left] == starts[i]]] = 0.0
+    return NestedResponse(t, inputs[0], inputs[1:], outputs[:, :N].T, outputs[:, N:].T)
+
+
+def time_scale(loop: NestedLoops) -> float:
+    """All times of blocks and controllers together."""
+    total = 0.0
+    for block, controller in zip(loop.blocks, loop.controllers, strict=True):
+        total += block.theta + sum(map(abs, block.lags)) + sum(tau for tau, _ in block.lag_pairs)
+        form = controller.to_parallel() if controller else None
+        total += abs(form.Kp / form.Ki) if form and form.Ki else 0.0
+    return total or 1.0
+
+
+def _times(loop: NestedLoops, steps: Steps, scenario: Scenario, heights: np.ndarray) -> tuple[np.ndarray, float]:
+    """When r, d_1 .. d_N begin, and the end; inputs of height 0 take no time of their own."""
+    order = [0, len(heights) - 1, 1] if len(heights) > 2 else [0, 1]  # r, then d1, then d2
+    used = [i for i in order if heights[i]] or [0]
+    if scenario.t is not None:
+        end = float(scenario.t[-1]) or 1.0
+        part = end / len(used)
+    elif scenario.t_end is not None:
+        end = scenario.t_end
+        part = end / len(used)
+    else:
+        part, end = horizon(loop, steps), 0.0
+    starts = np.zeros(len(heights))
+    for position, i in enumerate(used):
+        starts[i] = position * part
+    given = {len(heights) - 1: scenario.disturbance_time, 1: scenario.disturbance2_time}
+    for i, time in given.items():
+        starts[i] = starts[i] if time is None else time
+    return starts, end or float(np.max(starts[used])) + part
+
+
+def horizon(loop: NestedLoops, steps: Steps | None = None) -> float:
+    """A round time in which all unit steps settle to 1 %, or an unstable response has grown enough to be seen."""
+    steps = steps or Steps(network(loop))
+    t_end = BEGIN * time_scale(loop)
+    for _ in range(MOST_DOUBLINGS):
+        steps.run(t_end)
+        t = np.linspace(0.0, min(t_end, steps.t), SAMPLES)
+        size = np.abs(_all_outputs(steps.pieces(), t))
+        values = _all_outputs(steps.pieces(), t)
+        if size.max() > GROWN * max(size[: SAMPLES // 4].max(), 1.0):
+            return round_up(float(t[np.argmax(size.max(axis=(1, 2)) > GROWN)]))
+        away = np.abs(values - values[-1]) > SETTLED * size.max(axis=0)
+        last = int(np.max(np.flatnonzero(away.any(axis=(1, 2))), initial=0))
+        if last < 0.7 * SAMPLES:
+            return round_up(float(t[last + 1]))
+        t_end *= 2
+    return round_up(t_end / 2)
+
+
+def _all_outputs(pieces: Pieces, t: np.ndarray) -> np.ndarray:
+    """ys at t, (n, N, inputs)."""
+    values = pieces(t)
+    return values[:, : values.shape[1] // 2]

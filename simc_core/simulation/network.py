@@ -1,0 +1,127 @@
+"""Nested loops with every dead time pulled out, each on its own:
+
+    x' = A x + B w + E v        z = C x + D w + F v        w_i(t) = z_i(t - theta_i)
+    o  = Co x + Do w + Fo v     o = (y_1 .. y_N, u_1 .. u_N),  v = (r, d_1 .. d_N)
+
+z_i is the input of block i: z_1 = u_1 + d_1, z_i = y_{i-1} + d_i; counted from the inside out as in nested.py, u_i the
+output of controller i. The disturbance enters with the control signal, through the same states: responses to
+it stay bounded where the loop is stable, also with unstable blocks. Controllers as in system.py, those
+inside on the error. A block without dead time has its w eliminated.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from simc_core.controllers import ParallelPid
+from simc_core.errors import InvalidParameter
+from simc_core.nested import NestedLoops
+from simc_core.realisation import chain
+
+WELL_POSED = 1e-12
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Network:
+    """Matrices of the module docstring; theta (m,), all > 0."""
+
+    A: np.ndarray
+    B: np.ndarray
+    E: np.ndarray
+    C: np.ndarray
+    D: np.ndarray
+    F: np.ndarray
+    Co: np.ndarray
+    Do: np.ndarray
+    Fo: np.ndarray
+    theta: np.ndarray
+
+
+def network(loops: NestedLoops) -> Network:
+    """The loops as a Network.
+
+    Raises InvalidParameter: derivative action without filter inside, or on what may jump; an ill-posed algebraic loop.
+    """
+    chains = [chain(block.factored) for block in loops.blocks]
+    forms = [None if C is None else C.to_parallel() for C in loops.controllers]
+    n_blocks, N = sum(len(each[1]) for each in chains), len(chains)
+    n = n_blocks + sum((form.Ki != 0) + (form.tau_F > 0) for form in forms if form)
+    width = n + N + 1 + N  # columns x, w, v
+    states = np.zeros((n, width))  # rows of x'
+    states[:n_blocks, :n_blocks] = block_diag(*(each[0] for each in chains))
+    y, slopes, used = [], [], 0
+    for i, (_, B, C, D) in enumerate(chains):
+        here = slice(used, used + len(B))
+        states[here, n + i] = B
+        row = np.zeros(width)
+        row[here], row[n + i] = C, D
+        y.append(row)
+        slopes.append(None if D else C @ states[here])
+        used += len(B)
+    u, v = [np.zeros(width)] * N, np.eye(width)[n + N :]
+    set_point = v[0]
+    for i in reversed(range(N)):
+        if forms[i] is not None:
+            form = forms[i] if i == N - 1 else _on_error(forms[i])
+            set_point, used = _controller(form, set_point, y[i], slopes[i], states, used)
+        u[i] = set_point
+    z = np.array([(u[0] if i == 0 else y[i - 1]) + v[1 + i] for i in range(N)])
+    theta = np.array([block.theta for block in loops.blocks])
+    return _without(np.flatnonzero(theta == 0), _parts(states, z, np.array([*y, *u]), n, N, theta))
+
+
+def _on_error(form: ParallelPid) -> ParallelPid:
+    if form.Kd and not form.tau_F:
+        raise InvalidParameter(
+            "tau_F of an inner controller with derivative action must be > 0, got 0: it differentiates what the outer "
+            "controller puts out"
+        )
+    return ParallelPid(form.Kp, form.Ki, form.Kd, form.tau_F, 1.0, 1.0)
+
+
+def _controller(form: ParallelPid, r, y, slope, states, used: int):
+    """Rows of the controller's states are entered from `used` on; the row of u and the next free state."""
+    width = len(y)
+    xi = np.zeros(width)
+    if form.Ki:
+        states[used] = form.Ki * (r - y)
+        xi[used] = 1.0
+        used += 1
+    proportional = form.Kp * (form.b * r - y)
+    if not form.tau_F:
+        if not form.Kd:
+            return xi + proportional, used
+        if slope is None or form.c:
+            raise InvalidParameter("tau_F must be > 0 for derivative action on a signal that may jump, got 0")
+        return xi + proportional - form.Kd * slope, used
+    kick = form.Kd / form.tau_F * (form.c * r - y)
+    filtered = np.zeros(width)
+    filtered[used] = 1.0
+    states[used] = (xi + proportional - kick - filtered) / form.tau_F
+    return filtered + kick, used + 1
+
+
+def _parts(states, z, outputs, n: int, N: int, theta) -> Network:
+    x, w, v = slice(0, n), slice(n, n + N), slice(n + N, None)
+    return Network(*(rows[:, part] for rows in (states, z, outputs) for part in (x, w, v)), theta)
+
+
+def _without(gone: np.ndarray, system: Network) -> Network:
+    """The w in `gone`, which have no delay, solved for: w_g = (I - D_gg)^-1 (C_g x + D_gk w_k + F_g v)."""
+    if not gone.size:
+        return system
+    kept = np.setdiff1d(np.arange(len(system.theta)), gone)
+    matrix = np.eye(len(gone)) - system.D[np.ix_(gone, gone)]
+    if abs(np.linalg.det(matrix)) < WELL_POSED:
+        raise InvalidParameter("1 + L(inf) must not be zero in a loop without dead time, got 0: u is not defined")
+    C, D, F = (np.linalg.solve(matrix, part[gone]) for part in (system.C, system.D[:, kept], system.F))
+    rows = []
+    for of_x, of_w, of_v in (
+        (system.A, system.B, system.E),
+        (system.C[kept], system.D[kept], system.F[kept]),
+        (system.Co, system.Do, system.Fo),
+    ):
+        through = of_w[:, gone]
+        rows += [of_x + through @ C, of_w[:, kept] + through @ D, of_v + through @ F]
+    return Network(*rows, system.theta[kept])
