@@ -210,3 +210,29 @@ def _on_inner(loop: CascadeLoop) -> list[str]:
         "nothing, and it runs away when the outer loop saturates or is in manual; give the inner loop a larger "
         "tau_c or lambda"
     ]
+
+
+def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float = 2.0) -> CascadeLoop:
+    """The alternative without an inner loop: one controller for Ga Gb, SIMC with tau_c = theta.
+
+    Where SIMC has no rule for the product, direct synthesis with the peak Ms. Raises SimcError where neither works.
+    """
+    product = Plant(
+        primary.k * secondary.k,
+        primary.theta + secondary.theta,
+        primary.lags + secondary.lags,
+        primary.leads + secondary.leads,
+        primary.integrators + secondary.integrators,
+        primary.lag_pairs + secondary.lag_pairs,
+        primary.lead_pairs + secondary.lead_pairs,
+    )
+    if not product.unstable_poles and product.integrators <= 2:
+        model = half_rule(product, _order("kind", kind)).model
+        tau_c = next(iter(tau_c_presets(model).values()), 1.0)
+        return CascadeLoop(primary, secondary, _filtered(simc(model, tau_c), tau_c), None)
+
+    def at(lambda_: float) -> NestedLoops:
+        return NestedLoops((product,), (direct_synthesis(product, lambda_, kind),))
+
+    lambda_ = fastest(at, Ms, _time_of(product), "lambda", "Ms")
+    return CascadeLoop(primary, secondary, at(lambda_).controllers[0], None)

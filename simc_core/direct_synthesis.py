@@ -17,6 +17,7 @@ the exact T, of which the expansion needs the first terms only; tau is the sum o
 
 import math
 from collections import Counter
+from functools import lru_cache
 
 import numpy as np
 
@@ -74,17 +75,23 @@ def _order(process: Plant, inside: Loop | NestedLoops | None) -> tuple[float, in
 def _coefficients(process: Plant, lambda_: float, inside: Loop | NestedLoops | None) -> np.ndarray:
     """h0, h1, h2."""
     tau, p = _order(process, inside)
-    Gp = expansion(process.factored)
-    if inside is not None:
-        Gp = Gp * _chain(inside)[0]
     N = _numerator(process, lambda_, tau, p)
     delayed = (polynomial(N) * exponential(-tau)).c
     F = _power(lambda_, p) - delayed
     zeros = process.integrators + 1  # these coefficients of F vanish; what is left of them is rounding
     rest = np.zeros(TERMS)
     rest[: TERMS - zeros] = F[zeros:]
-    C = (Gp * exponential(tau)).inverse() * polynomial(N) * Laurent(zeros, rest).inverse()
+    C = _inverse(process, inside, tau) * polynomial(N) * Laurent(zeros, rest).inverse()
     return C.c[:3]
+
+
+@lru_cache(maxsize=32)  # a search for lambda asks for the same one a hundred times
+def _inverse(process: Plant, inside: Loop | NestedLoops | None, tau: float) -> Laurent:
+    """1/Gp without the dead time tau."""
+    Gp = expansion(process.factored)
+    if inside is not None:
+        Gp = Gp * _chain(inside)[0]
+    return (Gp * exponential(tau)).inverse()
 
 
 def _chain(inside: Loop | NestedLoops) -> tuple[Laurent, float]:

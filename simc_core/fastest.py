@@ -16,7 +16,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.nested import NestedLoops, closed_inside
 from simc_core.stability import count_unstable
 
-FASTEST, SLOWEST, SPEEDS = 1e-2, 1e2, 97  # in units of the scale
+FASTEST, SLOWEST, SPEEDS = 1e-2, 1e2, 65  # in units of the scale
 OMEGAS = 240
 PRECISION = 1e-10  # of log tau
 TRIED = 12  # loops of small Ms that are tried for an answer in the error message

@@ -57,9 +57,9 @@ def exponential(tau: float) -> Laurent:
 
 def expansion(F: Factored) -> Laurent:
     """F with its dead time."""
-    product = polynomial(np.array([F.gain])) * exponential(-F.theta)
+    top, bottom = polynomial(np.array([F.gain])) * exponential(-F.theta), polynomial(np.ones(1))
     for row in F.num:
-        product = product * polynomial(row[::-1])
+        top = top * polynomial(row[::-1])
     for row in F.den:
-        product = product * polynomial(row[::-1]).inverse()
-    return product
+        bottom = bottom * polynomial(row[::-1])
+    return top * bottom.inverse()

@@ -71,6 +71,18 @@ def network(loops: NestedLoops) -> Network:
     return _without(np.flatnonzero(theta == 0), _parts(states, z, np.array([*y, *u]), n, N, theta))
 
 
+def integral_states(loops: NestedLoops) -> list[int | None]:
+    """Which state of the Network holds the integral of controller i; None where it has none."""
+    used = sum(block.order for block in loops.blocks)
+    found: list[int | None] = [None] * len(loops.blocks)
+    for i in reversed(range(len(loops.blocks))):
+        form = loops.controllers[i].to_parallel() if loops.controllers[i] else None
+        if form and form.Ki:
+            found[i] = used
+        used += (form.Ki != 0) + (form.tau_F > 0) if form else 0
+    return found
+
+
 def _on_error(form: ParallelPid) -> ParallelPid:
     if form.Kd and not form.tau_F:
         raise InvalidParameter(

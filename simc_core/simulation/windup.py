@@ -1,0 +1,150 @@
+"""Nested loops with a limited actuator: windup between the loops, and how it is avoided.
+
+The linear loops of network.py, with what the limits take away as one more input, e = sat(u_1) - u_1:
+
+    z_1 = u_1 + d_1 + e
+    "none"    nothing more: both integrals go on growing
+    "inner"   xi_1' += e/T_1                     back calculation in the inner controller alone
+    "both"    and xi_i' += (e/K_1)/T_i outside   the set point that the inner loop could have followed is r_2 + e/K_1;
+                                                 the outer controller is led back to it, and takes over without a bump
+
+K_1 is the proportional gain of the inner controller, T = sqrt(tau_I tau_D), tau_I for PI. Steps are of second order:
+the linear part exact for signals that run linearly over a step, e by predictor and corrector.
+"""
+
+import math
+
+import numpy as np
+
+from simc_core.controllers import Controller
+from simc_core.errors import InvalidParameter
+from simc_core.nested import CascadeLoop, NestedLoops
+from simc_core.simulation.blocks import Linear
+from simc_core.simulation.nested import NestedResponse, horizon
+from simc_core.simulation.network import Network, integral_states, network
+from simc_core.simulation.simulate import held
+
+STEPS, MOST_STEPS = 3000, 40_000
+ON_GRID = 1e-6  # of a step
+PROTECTIONS = ("none", "inner", "both")
+
+
+def limited(
+    loop: CascadeLoop | NestedLoops,
+    u_min: float,
+    u_max: float,
+    protection: str = "both",
+    setpoint: float = 1.0,
+    disturbance2: float = 0.0,
+    disturbance2_time: float = 0.0,
+    t_end: float | None = None,
+) -> NestedResponse:
+    """Steps of r at 0 and of d at the input of the innermost block, from rest; us[0] is the limited signal.
+
+    Raises InvalidParameter: limits that do not enclose 0, unknown protection, a dead time too short for MOST_STEPS.
+    """
+    if not u_min <= 0 <= u_max or u_min == u_max:
+        raise InvalidParameter(f"u_min <= 0 <= u_max must hold, the state of rest, got {u_min:g} and {u_max:g}")
+    if protection not in PROTECTIONS:
+        raise InvalidParameter(f"protection must be one of {', '.join(PROTECTIONS)}, got {protection[:20]}")
+    loops = loop.nested if isinstance(loop, CascadeLoop) else loop
+    t_end = horizon(loops) if t_end is None else t_end
+    system = network(loops)
+    dt = _step(system, t_end)
+    t = dt * np.arange(round(t_end / dt) + 1)
+    v = np.zeros((len(t), system.E.shape[1]))
+    v[:, 0], v[:, 1] = setpoint, held(t, disturbance2_time, disturbance2)
+    outputs, u = _run(system, _tracking(loops, len(system.A), protection), (u_min, u_max), v, dt)
+    N = len(loops.blocks)
+    us = outputs[:, N:].T.copy()
+    us[0] = u
+    return NestedResponse(t, v[:, 0], v[:, 1:].T, outputs[:, :N].T, us)
+
+
+def _step(system: Network, t_end: float) -> float:
+    """A part of the shortest dead time, so that the jump at t = 0 comes back at an instant of the grid."""
+    if not system.theta.size:
+        return t_end / STEPS
+    shortest = float(np.min(system.theta))
+    if t_end / shortest > MOST_STEPS:
+        raise InvalidParameter(f"t_end must be at most {MOST_STEPS} theta = {MOST_STEPS * shortest:g}, got {t_end:g}")
+    return shortest / math.ceil(STEPS * shortest / t_end)
+
+
+def _tracking(loops: NestedLoops, n: int, protection: str) -> np.ndarray:
+    """Column of e in x' from back calculation."""
+    column = np.zeros(n)
+    if protection == "none":
+        return column
+    integrals = integral_states(loops)
+    gain, innermost = 1.0, True
+    for controller, state in zip(loops.controllers, integrals, strict=True):
+        if controller is None:
+            continue
+        if state is not None and (innermost or protection == "both"):
+            column[state] = 1 / (gain * _tracking_time(controller))
+        form = controller.to_parallel()
+        gain *= form.Kp or form.Ki * _tracking_time(controller)
+        innermost = False
+    return column
+
+
+def _tracking_time(controller: Controller) -> float:
+    form = controller.to_parallel()
+    if form.Kd * form.Ki > 0:
+        return math.sqrt(form.Kd / form.Ki)
+    return abs(form.Kp / form.Ki) if form.Kp and form.Ki else 1.0
+
+
+def _run(system: Network, tracking: np.ndarray, limits: tuple[float, float], v: np.ndarray, dt: float):
+    """Outputs (n, 2 N) at all instants, and the limited u."""
+    n, m = system.B.shape
+    N = len(system.Co) // 2
+    Phi, first, second = _ramps(system, tracking, dt)
+    x, z = np.zeros(n), np.zeros((len(v) + 1, m))
+    outputs, limited_u, excess = np.empty((len(v), len(system.Co))), np.empty(len(v)), 0.0
+    entry = np.zeros(m)
+    if m:
+        entry[0] = 1.0  # e goes where u_1 goes; a first block without dead time has no z of its own
+    reach = system.theta / dt
+    for k in range(len(v)):
+        w = _delayed(z, k, reach)
+        o = system.Co @ x + system.Do @ w + system.Fo @ v[k]
+        outputs[k] = o
+        limited_u[k] = min(max(o[N], limits[0]), limits[1])
+        excess = limited_u[k] - o[N]
+        z[k] = system.C @ x + system.D @ w + system.F @ v[k] + entry * excess
+        if k + 1 == len(v):
+            break
+        w_next = _delayed(z, k + 1, reach, from_left=True)
+        start = first @ np.concatenate([w, v[k], [excess]]) + Phi @ x
+        known = np.concatenate([w_next, v[k], [excess]])  # v is held over the step
+        o_next = system.Co @ (start + second @ known) + system.Do @ w_next + system.Fo @ v[k]
+        known[-1] = min(max(o_next[N], limits[0]), limits[1]) - o_next[N]
+        x = start + second @ known
+    return outputs, limited_u
+
+
+def _delayed(z: np.ndarray, k: int, reach: np.ndarray, from_left: bool = False) -> np.ndarray:
+    """z_i at (k - reach_i), linear between instants, 0 before the start, where from_left also means at the start."""
+    found = np.zeros(len(reach))
+    for i, back in enumerate(reach):
+        at = k - back
+        nearest = round(at)
+        if abs(at - nearest) < ON_GRID:
+            if nearest > 0 or (nearest == 0 and not from_left):
+                found[i] = z[nearest, i]
+        elif at > 0:
+            j = int(at)
+            found[i] = (1 - at + j) * z[j, i] + (at - j) * z[j + 1, i]
+    return found
+
+
+def _ramps(system: Network, tracking: np.ndarray, dt: float):
+    """Phi, and what (w, v, e) at the start and at the end of a step add, all running linearly."""
+    n = len(system.A)
+    inputs = np.column_stack([system.B, system.E, tracking])
+    first, second, Phi = np.empty_like(inputs), np.empty_like(inputs), np.eye(n)
+    for j in range(inputs.shape[1]):
+        Phi, first[:, j], second[:, j] = Linear(system.A, inputs[:, j], np.zeros((0, n)), np.zeros(0)).ramp(dt)
+    return Phi, first, second
