@@ -19,7 +19,7 @@ AHEAD = 6  # levels made at once
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Level:
-    """Maps of one element. B: (P, P), its own z at t - theta.   loops: B times the parts w -> p, p', int p, (3, P, P)."""
+    """Maps of one element. B: (P, P), its own z at t - theta.   loops: (3, P, P), B times w -> p, p', int p."""
 
     maps: Maps
     B: np.ndarray

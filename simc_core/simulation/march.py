@@ -1,20 +1,20 @@
 """Unit step responses of one plant under many controllers at once: the method of steps on elements that grow.
 
-    w(t) = z(t - theta),   z = u + d,   u = f(t) + xi - Kp p - Kd p' - Ki int p        (measured.py: w -> y, p, p', int p)
+    w(t) = z(t - theta),   z = u + d,   u = f(t) + xi - Kp p - Kd p' - Ki int p     (measured.py: w -> y, p, p', int p)
 
 f is what the set point does, known in closed form; xi is the integral at the start of the element. All that differs
 between tunings are the gains in this law: the plant's maps are one matrix product for all of them.
 
-Intervals. Over [k theta, (k+1) theta] w is known from the interval before. Jumps and kinks sit at k theta, on edges, and
-cost no accuracy; a mesh that is fine at its start holds the fast modes that they excite.
+Intervals. Over [k theta, (k+1) theta] w is known from the interval before. Jumps and kinks sit at k theta, on edges,
+and cost no accuracy; a mesh that is fine at its start holds the fast modes that they excite.
 Elements. A jump comes back smoother by the relative degree of L each time. Once it is smooth, elements of length
 theta 2^level take over, each tuning at its own pace. The part of w beyond theta is then the element itself:
 
     w = H + B z,   z = c - Z w     =>     w = (1 + B Z)^-1 (H + B c)
 
 with H from the element before and B the interpolation at t - theta. Without dead time B = 1, H = 0.
-An element is good if the last Chebyshev coefficients of y and u are below TAIL of their largest values so far; else it is
-halved. A horizon of 10^6 dead times costs a few elements more than one of ten.
+An element is good if the last Chebyshev coefficients of y and u are below TAIL of their largest values so far; else
+it is halved. A horizon of 10^6 dead times costs a few elements more than one of ten.
 """
 
 import math
@@ -37,7 +37,7 @@ MOST_PATIENCE = 16  # elements before a longer one is tried again
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 REST = 1e-11  # of the largest value: nearer than this to where it ends, a response is at rest
 ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors
-MOST_ROUNDS = 12_000
+MOST_ROUNDS, MOST_TO_REST = 12_000, 5_000  # elements of one tuning
 LOWEST, HIGHEST = -48, 60  # levels
 LARGEST = 1e150  # an unstable response is cut off here
 WELL_POSED = 1e-12
@@ -83,7 +83,7 @@ def _check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
 
 
 class _Walk:
-    """State of the march: x (n_x, n, 2), xi (n, 2), z at the nodes of the element before, and each tuning's own pace."""
+    """State of the march: x (n_x, n, 2), xi (n, 2), z at the nodes of the element before; each tuning's own pace."""
 
     def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None):
         n = len(forms)
@@ -124,7 +124,7 @@ class _Walk:
 
     def elements(self) -> None:
         """On at every tuning's own pace."""
-        for _ in range(MOST_ROUNDS):
+        for _ in range(MOST_TO_REST if self.t_end is None else MOST_ROUNDS):
             if not self.active:
                 return
             groups: dict[tuple[int, int], list[int]] = {}
@@ -231,7 +231,7 @@ class _Walk:
             if not size < LARGEST or self._arrived(i, each):
                 del self.active[i]
 
-    def _keep(self, which: list[int], maps: Maps, values, x, xi, at=slice(None), level: int = 0) -> None:  # noqa: B008
+    def _keep(self, which: list[int], maps: Maps, values, x, xi, at=slice(None), level: int = 0) -> None:
         """Enter a stretch, and go on from its end."""
         self.stretches.append(Stretch(which, [self.t[i] for i in which], maps.lengths, values))
         self.x[:, at], self.xi[at] = x, xi

@@ -1,4 +1,4 @@
-"""What a stretch of time does to the plant and to what its controller measures: constant matrices, shared by all tunings.
+"""What a stretch of time does to the plant and to what its controller measures: the same for all tunings.
 
     w --> [ g ] --> y --> [ 1/(tau_F s + 1) ] --> p        w: input of the plant behind its dead time, y = g w
 
