@@ -48,7 +48,7 @@ def reference(loop: Loop, load: bool, t: np.ndarray) -> np.ndarray:
     ],
 )
 def test_the_reference_against_the_expansion_in_delays_by_mpmath(loop):
-    """y_r = sum_k (-1)^(k+1) (G C)^(k-1) G C_r/s,  u_r = sum_k (-1)^k (G C)^k C_r/s, and so on, each inverted by mpmath."""
+    """y_r = sum_k (-1)^k (G C)^k G C_r/s,  u_r = sum_k (-1)^k (G C)^k C_r/s, and so on, each inverted by mpmath."""
     nums, dens = plant_factors(loop.plant)
     Kp, Ki, Kd, tau_F, b, c = parallel(loop.controller)
 
@@ -76,12 +76,13 @@ def test_the_reference_against_the_expansion_in_delays_by_mpmath(loop):
 
 
 def test_the_reference_a_long_time_on_against_lambert_w():
-    """L = K e^{-s}/s: y_r = 1 + sum e^{p t} K e^{-p}/(p (1 + K e^{-p} ...)), p = W_n(-K): residues of -1/(p (1 + p))."""
+    """L = K e^{-s}/s: Y = K e^{-s}/(s (s + K e^{-s})) has poles p = W_n(-K), where K e^{-p} = -p: residues -1/(1 + p)."""
     K, t = 0.9, 30.25
     poles = [mp.lambertw(-K, n) for n in range(-12, 13)]
-    # Y = K e^{-s}/(s (s + K e^{-s})); residue at p: K e^{-p}/(p (1 - K e^{-p})) = -p/(p (1 + p)), as K e^{-p} = -p
     expected = 1 - mp.fsum(mp.exp(p * t) / (1 + p) for p in poles)
-    assert course(Loop(Plant(1, 1), IController(K)), False, t).at(t)[0] == pytest.approx(float(expected.real), abs=1e-15)
+    assert course(Loop(Plant(1, 1), IController(K)), False, t).at(t)[0] == pytest.approx(
+        float(expected.real), abs=1e-15
+    )
 
 
 def test_the_reference_does_not_depend_on_its_pieces():
