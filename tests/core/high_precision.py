@@ -2,8 +2,8 @@
 
 A loop is read as numbers (the fields of plant and controller); everything else is done here.
 
-theta > 0. The plant input u + d is known one dead time ahead. Over a piece of length h = theta/m every signal is a Taylor
-series in x = (t - edge)/h, held as fixed-point integers. A block N(s)/D(s) of order two is
+theta > 0. The plant input u + d is known one dead time ahead. Over a piece of length h = theta/m every signal is a
+Taylor series in x = (t - edge)/h, held as fixed-point integers. A block N(s)/D(s) of order two is
 
     x1' = x2     d2 x2' = v - d0 x1 - d1 x2     out = n0 x1 + n1 x2 + n2 x2'        (N = n2 s^2 + n1 s + n0)
 

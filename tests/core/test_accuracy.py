@@ -76,7 +76,7 @@ def test_the_reference_against_the_expansion_in_delays_by_mpmath(loop):
 
 
 def test_the_reference_a_long_time_on_against_lambert_w():
-    """L = K e^{-s}/s: Y = K e^{-s}/(s (s + K e^{-s})) has poles p = W_n(-K), where K e^{-p} = -p: residues -1/(1 + p)."""
+    """L = K e^{-s}/s: Y = K e^{-s}/(s (s + K e^{-s})) has poles p = W_n(-K), K e^{-p} = -p, residues -1/(1 + p)."""
     K, t = 0.9, 30.25
     poles = [mp.lambertw(-K, n) for n in range(-12, 13)]
     expected = 1 - mp.fsum(mp.exp(p * t) / (1 + p) for p in poles)
