@@ -15,6 +15,7 @@ from simc_core import (
     Scenario,
     SeriesPid,
     simulate,
+    stability,
 )
 from tests.core.high_precision import course, parallel, plant_factors, value, without_delay
 
@@ -86,9 +87,12 @@ def test_the_reference_a_long_time_on_against_lambert_w():
 
 
 def test_the_reference_does_not_depend_on_its_pieces():
-    loop = Loop(Plant(1, 2, (3, 0.1), (-0.5,)), SeriesPid(0.7, 3, 0.2, 0.02))
-    for load in (False, True):
-        assert course(loop, load, 40).at(39.3) == course(loop, load, 40, reach=2).at(39.3)
+    for loop in (
+        Loop(Plant(1, 2, (3, 0.1), (-0.5,)), SeriesPid(0.7, 3, 0.2, 0.02)),
+        Loop(Plant(1, 1, (0.1,), (-0.2,)), SeriesPid(0.475, 2)),
+    ):
+        for load in (False, True):
+            assert course(loop, load, 40).at(39.3) == course(loop, load, 40, reach=2).at(39.3)
 
 
 # the engine
@@ -122,6 +126,9 @@ CASES = {
     "pure dead time, I": (Plant(2, 1), IController(0.25), 30),
     "a plant that answers at once": (Plant(1, 1, (4,), (2,)), SeriesPid(0.6, 4), 40),
     "neutral, |L(inf)| = 0.6": (Plant(1, 1, (5,)), SeriesPid(1.5, 5, 2), 20),
+    "neutral, 0.8, delay dominant": (Plant(1, 1, (0.1,), (-0.2,)), SeriesPid(0.4, 2), 20.25),
+    "neutral, 0.95, delay dominant": (Plant(1, 1, (0.1,), (-0.2,)), SeriesPid(0.475, 2), 40.25),
+    "neutral, 0.8, PID without filter": (Plant(1, 1, (0.2,)), SeriesPid(0.4, 2, 0.4), 40.25),
     "horizon / theta = 1e4": (Plant(1, 2**-9, (8, 1)), SeriesPid(2, 8), 20),
     "horizon / theta = 1e4, integrating": (Plant(1, 2**-9, integrators=1), SeriesPid(0.9, 8), 20),
     "unstable loop": (Plant(1, 1), IController(2), 16),
@@ -131,7 +138,8 @@ CASES = {
 def instants(theta: float, until: float) -> np.ndarray:
     """From the step on; jumps at k theta, the last instant among them, and what lies between."""
     early = theta * np.array([0, 0.125, 0.5, 1, 1.0625, 1.5, 2, 2.25, 3, 4.875, 5])
-    return np.unique(np.concatenate([early[early < until], until * np.array([0.1, 0.29, 0.5, 0.77, 1.0])]))
+    late = until - theta * np.array([0.95, 0.25, 0.0])
+    return np.unique(np.concatenate([early[early < until], until * np.array([0.1, 0.29, 0.5, 0.77]), late]))
 
 
 @pytest.mark.parametrize("load", [False, True])
@@ -183,13 +191,19 @@ def random_loop(rng: np.random.Generator) -> Loop:
 
 
 def test_120_random_loops_within_1e_9():
-    """Stable or not: relative to what the response has grown to."""
+    """Stable or not, relative to what the response has grown to; |L(inf)| <= 0.9."""
     rng = np.random.default_rng(20)
-    for _ in range(120):
+    checked = {"stable": 0, "unstable": 0}
+    while sum(checked.values()) < 120:
         loop = random_loop(rng)
+        found = stability(loop)
+        if found.neutral > 0.9:
+            continue
+        checked[found.verdict] += 1
         t = instants(loop.plant.theta, 20 * loop.plant.theta)
         for load in (False, True):
             expected = reference(loop, load, t)
             scale = np.maximum(np.abs(expected).max(axis=1, keepdims=True), 1.0)
             error = np.abs(unit_step(loop, load, t) - expected) / scale
             assert error.max() < WITHIN, loop
+    assert min(checked.values()) > 40
