@@ -149,7 +149,7 @@ def random_loop(rng: np.random.Generator) -> Loop:
     return Loop(plant, form(Kc, slow * 10 ** rng.uniform(-0.5, 1), tau_D, tau_F))
 
 
-CLOSE = 1.01  # what comes this near to the best on the grid is looked at again
+FIRST = 6  # crossings and peaks that come nearest to the best on the grid are looked at again
 
 
 def brute_force(loop: Loop) -> dict[str, float]:
@@ -164,10 +164,13 @@ def brute_force(loop: Loop) -> dict[str, float]:
     omega = omega[omega > 0]
     L = L0(1j * omega)
 
-    def peak(sensitivity):
+    far = abs(L0(1e9j * roots.max())) if L0.relative_degree == 0 else 0.0  # |L(inf)|, at any phase
+
+    def peak(sensitivity, *ends):
         size = np.abs(sensitivity(L))
-        top = np.flatnonzero((size[1:-1] >= size[:-2]) & (size[1:-1] >= size[2:]) & (size[1:-1] * CLOSE > size.max()))
-        best = [size[0]]
+        top = np.flatnonzero((size[1:-1] >= size[:-2]) & (size[1:-1] >= size[2:]))
+        top = top[np.argsort(-size[top + 1])][:FIRST]
+        best = [*ends]
         for i in top + 1:
             low, high = omega[i - 1], omega[i + 1]
             for _ in range(3):
@@ -186,18 +189,16 @@ def brute_force(loop: Loop) -> dict[str, float]:
     at = crossed(lambda L: np.log(np.abs(L)), step)
     PM = np.angle(-L0(1j * at))
     cross = np.flatnonzero(((angle[:-1] < 0) != (angle[1:] < 0)) & (np.abs(np.diff(angle)) < 3))
-    above, below = 1 / size[cross[size[cross] < 1]], 1 / size[cross[size[cross] >= 1]]
-    cross = cross[
-        (size[cross] * above.min(initial=math.inf) * CLOSE > 1) & (below.max(initial=0) < CLOSE / size[cross])
-    ]
+    cross = cross[np.argsort(np.abs(np.log(size[cross])))]  # nearest to 1 first
+    cross = np.concatenate([side[:FIRST] for side in (cross[size[cross] < 1], cross[size[cross] >= 1])])
     gains = 1 / np.abs(L0(1j * crossed(lambda L: np.angle(-L), cross)))
     return {
-        "GM": gains[gains > 1].min(initial=math.inf),
+        "GM": gains[gains > 1].min(initial=1 / far if far else math.inf),
         "GM_lower": gains[gains <= 1].max(initial=0.0),
         "PM_deg": math.degrees(np.min(np.abs(PM), initial=math.inf)),
         "delay_margin": np.min((PM % (2 * math.pi)) / at, initial=math.inf),
-        "Ms": peak(lambda L: 1 / (1 + L)),
-        "Mt": peak(lambda L: L / (1 + L)),
+        "Ms": peak(lambda L: 1 / (1 + L), 1 / (1 - far)),
+        "Mt": peak(lambda L: L / (1 + L), 1.0, far / (1 - far)),
     }
 
 
