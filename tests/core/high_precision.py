@@ -203,6 +203,8 @@ def without_delay(loop: Loop, load: bool) -> Callable[[float], tuple[float, floa
     with mp.workdps(60):
         bottom = [Fraction(0), *closed[: max(i for i, x in enumerate(closed) if x) + 1]]
         poles = [mp.mpf(0), *mp.polyroots([real(x) for x in bottom[1:]], maxsteps=500, extraprec=500, asc=True)]
+        gaps = [abs(p - q) / (abs(p) + abs(q)) for i, p in enumerate(poles) for q in poles[:i]]
+        assert min(gaps) > 1e-10, "poles are not distinct"
         slope = [j * x for j, x in enumerate(bottom)][1:]
         residues = [[value(top, p) / value(slope, p) for p in poles] for top in tops]
 
