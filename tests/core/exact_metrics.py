@@ -11,6 +11,7 @@ from simc_core import Loop
 from tests.core.high_precision import ONE, course, to_float
 
 PLACES = np.linspace(0, 1, 33)
+ROUNDING = 1e-15
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,13 +38,12 @@ class Signal:
 
     def roots(self, level: float = 0.0) -> list[list[float]]:
         """x at which each piece crosses the level."""
-        values = np.sign(self.series @ polyvander(PLACES, self.series.shape[1] - 1).T - level)
+        values = self.series @ polyvander(PLACES, self.series.shape[1] - 1).T - level
+        values[np.abs(values) < ROUNDING * np.abs(self.series).sum(axis=1, keepdims=True)] = 0.0
         found: list[list[float]] = [[] for _ in self.series]
         for i, j in np.argwhere(values[:, :-1] * values[:, 1:] < 0):
-            series = self.series[i]
-            found[i].append(
-                brentq(lambda x, c=series: polyval(x, c) - level, *PLACES[j : j + 2], xtol=1e-16, rtol=1e-15)
-            )
+            ends, series = PLACES[j : j + 2], self.series[i]
+            found[i].append(brentq(lambda x, c=series: polyval(x, c) - level, *ends, xtol=1e-16, rtol=1e-15))
         return found
 
     def crossings(self, level: float) -> list[float]:

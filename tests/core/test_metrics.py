@@ -136,6 +136,7 @@ CASES = {
     "SOPDT, weights": (Plant(1, 1, (6, 3)), IdealPid(3, 12, 2, 0.25, b=0.4, c=0.7), 300),
     "jumps for ever": (Plant(1, 1), SeriesPid(0.3, 0.5), 60),
     "neutral": (Plant(1, 1, (5,)), SeriesPid(1.5, 5, 2), 150),
+    "neutral, 0.8, delay dominant": (Plant(1, 1, (0.1,), (-0.2,)), SeriesPid(0.4, 2), 250),
     "negative gain": (Plant(-2e-3, 16, (100,)), ParallelPid(-800, -9), 4000),
     "many equal lags": (Plant(1, 0.5, (1,) * 6), SeriesPid(0.4, 3), 150),
 }
