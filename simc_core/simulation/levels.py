@@ -38,14 +38,18 @@ class Level:
 
 
 class Levels:
-    """Of one plant behind one filter. mesh: levels of the elements of one interval, short at its start."""
+    """Of one plant behind one filter. mesh: levels of the elements of one interval, short at its start.
 
-    def __init__(self, chain: Measured):
+    finer: how often these are halved.
+    """
+
+    def __init__(self, chain: Measured, finer: int):
         self.chain, self.theta = chain, chain.theta
         size = np.abs(chain.modes)
         self.unit = chain.theta or float(1 / np.max(size) if size.any() else 1.0)
         self._made: dict[int, Level] = {}
-        self.shape = tuple((mesh(chain.modes, chain.theta) / chain.theta).tolist()) if chain.theta else ()
+        parts = np.repeat(mesh(chain.modes, chain.theta) / chain.theta, 2**finer) / 2**finer if chain.theta else ()
+        self.shape = tuple(float(part) for part in parts)
         self.mesh = tuple(round(math.log2(part)) for part in self.shape)
         self._make(sorted({*self.mesh, *range(1, 1 + AHEAD)}))
 
@@ -77,9 +81,9 @@ class Levels:
 
 
 @lru_cache(maxsize=64)
-def levels(plant: Plant, tau_F: float, derivative: bool) -> Levels:
+def levels(plant: Plant, tau_F: float, derivative: bool, finer: int = 0) -> Levels:
     """Raises InvalidParameter as Measured does."""
-    return Levels(Measured(plant, tau_F, derivative))
+    return Levels(Measured(plant, tau_F, derivative), finer)
 
 
 @lru_cache(maxsize=128)

@@ -36,6 +36,7 @@ ROOM = 3e-3  # of TAIL: so small a tail lets the next element be longer at once
 PATIENCE, MOST_PATIENCE = 4, 16  # elements of one length before a longer one is tried
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 REST = 1e-11  # of the largest value: nearer than this to where it ends, a response is at rest
+COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors
 MOST_ROUNDS, MOST_TO_REST = 12_000, 5_000  # elements of one tuning
 LOWEST, HIGHEST = -48, 60  # levels
@@ -53,11 +54,11 @@ def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Co
     an ill-posed loop without dead time; a t_end that needs more than MOST_ROUNDS elements.
     """
     _check(plant, forms)
-    walk = _Walk(plant, forms, t_end)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        if plant.theta:
-            walk.intervals()
-        walk.elements()
+        for finer in range(FINEST + 1):
+            walk = _Walk(plant, forms, t_end, finer)
+            if walk.arrives():
+                break
     return course(walk.stretches, len(forms), walk.at_rest)
 
 
@@ -83,15 +84,20 @@ def _check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
                 raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: u is not defined")
 
 
+class _TooCoarse(Exception):
+    """Echoes of a neutral loop have become rougher than the modes of the plant, which the mesh was made for."""
+
+
 class _Walk:
     """State of the march: x (n_x, n, 2), xi (n, 2), z at the nodes of the element before; each tuning's own pace.
 
     gains: Kp, Kd, Ki, (3, n, 1).
     """
 
-    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None):
+    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int):
         n = len(forms)
-        self.levels = levels(plant, forms[0].tau_F, any(form.Kd for form in forms))
+        self.levels = levels(plant, forms[0].tau_F, any(form.Kd for form in forms), finer)
+        self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.chain, self.theta, self.t_end, self.n = self.levels.chain, plant.theta, t_end, n
         self.gains = np.array(
             [[[form.Kp] for form in forms], [[form.Kd] for form in forms], [[form.Ki] for form in forms]]
@@ -111,12 +117,22 @@ class _Walk:
         self.set_points: dict[int, np.ndarray] = {}
         self.stretches: list[Stretch] = []
 
+    def arrives(self) -> bool:
+        """The whole way; False as soon as the mesh turns out to be too coarse."""
+        try:
+            if self.theta:
+                self.intervals()
+            self.elements()
+        except _TooCoarse:
+            return False
+        return True
+
     def intervals(self) -> None:
         """The first intervals of theta, all tunings together, until what comes back is smooth."""
         everyone, degree = list(range(self.n)), self._degree()
         count = 2 + math.ceil(SMOOTH / degree) if degree else 3 * SMOOTH
         if self.t_end is not None:
-            count = min(count, math.ceil(self.t_end / self.theta * (1 - 1e-12)))
+            count = min(count, math.floor(self.t_end / self.theta * (1 + 1e-12)) + 1)
         for _ in range(max(count - 1, 0)):
             found = self._interval(slice(None), np.array(self.t[:1]), 0)
             self._keep(everyone, slice(None), 0, self.theta, *found)
@@ -231,10 +247,13 @@ class _Walk:
         k = len(which)
         sizes = np.abs(values).max(axis=1)
         largest = np.maximum(self.largest[:, at], sizes)
-        tails = np.abs(LAST @ values[:, -P:].reshape(2, P, 2 * k)).max(axis=1).reshape(2, k, 2)
+        tails = np.abs(LAST @ values.reshape(2, -1, P, 2 * k)).max(axis=(1, 2)).reshape(2, k, 2)
         away = np.abs(values - self.final[:, None, at]).max(axis=1) if self.t_end is None else tails
         tails, away, size = (np.stack([tails / largest, away / largest, largest]).max(axis=(1, 3))).tolist()
-        good = [j for j, tail in enumerate(tails) if tail <= TAIL or (level == 0 and self.theta)]
+        on_mesh = level == 0 and self.theta > 0
+        if on_mesh and max(tails) > self.coarse:
+            raise _TooCoarse
+        good = [j for j, tail in enumerate(tails) if tail <= TAIL or on_mesh]
         if len(good) < k:
             for j in set(range(k)) - set(good):
                 self._shorten(which[j], level)
@@ -279,7 +298,7 @@ class _Walk:
     def _arrived(self, i: int, away: float) -> bool:
         """At t_end, or at rest: each value of the last element near where the response ends."""
         if self.t_end is not None:
-            return self.t[i] >= self.t_end * (1 - 1e-12)
+            return self.t[i] > self.t_end * (1 + 1e-12)  # what is asked for at t_end is the right-hand limit
         rest = away <= REST
         if self.t[i] >= 2 * self.mark[i]:
             rest |= 0.5 * self.away_at_mark[i] < away <= ROUNDING
