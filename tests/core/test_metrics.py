@@ -134,7 +134,7 @@ CASES = {
     "unstable": (Plant(-1, 1, (-4,)), SeriesPid(2.5, 20), 400),
     "SOPDT, PID with filter": (Plant(1, 1, (6, 3)), SeriesPid(3, 6, 3, 0.3), 200),
     "SOPDT, weights": (Plant(1, 1, (6, 3)), IdealPid(3, 12, 2, 0.25, b=0.4, c=0.7), 300),
-    "jumps for ever": (Plant(1, 1), SeriesPid(0.3, 0.5), 60),
+    "jumps for ever": (Plant(1, 1), SeriesPid(0.3, 0.6), 60),  # tau_I 0.5 would touch 90 % and turn: no rise time
     "neutral": (Plant(1, 1, (5,)), SeriesPid(1.5, 5, 2), 150),
     "neutral, 0.8, delay dominant": (Plant(1, 1, (0.1,), (-0.2,)), SeriesPid(0.4, 2), 250),
     "negative gain": (Plant(-2e-3, 16, (100,)), ParallelPid(-800, -9), 4000),
