@@ -4,7 +4,8 @@ Elements (delay_maps.py) end at every instant where the response is not smooth (
 on an element is, node by node, the polynomial of an earlier one, or of the element itself where that is longer than
 a dead time. So a dead time 4000 times shorter than the other costs a few more elements, not 4000 times as many.
 Lengths are unit 2^k, halved where the last Chebyshev coefficients are too large and doubled where they allow it; the
-map of one length is made once. In front of a breakpoint the rest is one element, or two of the same length.
+map of one length is made once. The shortest dead time is such a length, and so is most of what is left in front of a
+breakpoint.
 """
 
 import math
@@ -15,7 +16,7 @@ import numpy as np
 
 from simc_core.errors import InvalidParameter
 from simc_core.nested import NestedLoops
-from simc_core.simulation.breakpoints import Breakpoints
+from simc_core.simulation.breakpoints import SMOOTH, Breakpoints
 from simc_core.simulation.delay_maps import LEFT, DelayMap, delay_map
 from simc_core.simulation.elements import NODES, P
 from simc_core.simulation.network import Network, network
@@ -23,8 +24,8 @@ from simc_core.simulation.pieces import Pieces
 
 TAIL = 1e-10  # last two coefficients of an element, relative to the largest value so far
 ROOM = 2.0**-10  # the tail must be below ROOM TAIL for the length to be doubled at once
-MOST_PATIENCE = 16
-ROUGH = 2  # a jump of a derivative up to this order: elements start short again
+MOST_PATIENCE = 4
+ROUGH = 2  # behind a jump of a derivative up to this order elements start short; four times as long for each more
 START = 4.0  # first length after a jump, in time constants of the fastest mode
 FEWEST_BITS = 30  # lengths below 2^-FEWEST_BITS of the first are rounding
 FLOOR = 1e-4  # a signal is judged by this part of the largest one at least: zero is zero within rounding
@@ -50,7 +51,9 @@ class Steps:
         self.count = 0
         self.breakpoints = Breakpoints(system)
         self.upcoming = self.breakpoints.next()
-        self.h = self.restart = self.unit = _unit(system)
+        self.h = unit = _unit(system)
+        self.first = [unit * 4.0 ** max(order - ROUGH, 0) for order in range(SMOOTH)]  # length behind a breakpoint
+        self.behind = SMOOTH  # order of the breakpoint at t; SMOOTH for none
         self.good, self.patience = 0, 1  # elements accepted in a row, and how many before a longer one is tried
         self.maps: dict[float, DelayMap] = {}
         self.largest = np.full((self.signals, self.inputs), 1e-300)
@@ -70,24 +73,25 @@ class Steps:
 
     def _pass_breakpoints(self) -> None:
         while self.upcoming is not None and self.upcoming[0] <= self.t:
-            if self.upcoming[1] <= ROUGH:
-                self.h, self.good, self.patience = min(self.h, self.restart), 0, 1
+            self.behind = min(self.behind, self.upcoming[1])
             self.upcoming = self.breakpoints.next()
+        if self.behind < SMOOTH:
+            self.h, self.good, self.patience = min(self.h, self.first[self.behind]), 0, 1
 
     def _step(self) -> None:
         left = math.inf if self.upcoming is None else self.upcoming[0] - self.t
-        rough = self.h == self.restart
         for _ in range(FEWEST_BITS):
             last = left <= self.h * (1 + 1e-9)
-            length = left if last else left / 2 if left < 2 * self.h else self.h
+            length = left if last else self.h
             values, x, tail = self._try(length)
             if tail <= 1:
                 break
             self.good, self.patience = 0, min(2 * self.patience, MOST_PATIENCE)
             while self.h >= length * (1 - 1e-9):
                 self.h /= 2
-        if rough:
-            self.restart = min(self.restart, self.h)
+        if self.behind < SMOOTH:  # the next breakpoint like this one begins where this one did, or bolder
+            self.first[self.behind] = 2 * self.h if tail < ROOM else self.h
+            self.behind, self.patience = SMOOTH, 1
         self._keep(values, x, self.upcoming[0] if last else self.t + length)
         self.good += 1
         if not last and (tail < ROOM or self.good >= self.patience):
