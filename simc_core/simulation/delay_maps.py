@@ -39,16 +39,15 @@ def delay_map(system: Network, length: float) -> DelayMap:
     n, m = system.B.shape
     states = _states(system, length)  # (n, P, width)
     width = states.shape[2]
-    w = np.zeros((m, P, width))
-    w[:, :, n : n + m * P] = np.eye(m * P).reshape(m, P, m * P)
-    z = np.tensordot(system.C, states, 1) + np.tensordot(system.D, w, 1)
-    o = np.tensordot(system.Co, states, 1) + np.tensordot(system.Do, w, 1)
-    z[:, :, n + m * P :] += system.F[:, None]
-    o[:, :, n + m * P :] += system.Fo[:, None]
-    both, end = np.concatenate([z, o]), states[:, -1]
+    C, D, F = (np.concatenate(pair) for pair in ((system.C, system.Co), (system.D, system.Do), (system.F, system.Fo)))
+    both, end = (C @ states.reshape(n, P * width)).reshape(len(C), P, width), states[:, -1]
+    nodes = np.arange(P)
+    for j in range(m):
+        both[:, nodes, n + j * P + nodes] += D[:, j, None]
+    both[:, :, n + m * P :] += F[:, None]
     within = _within(system.theta, length)
     if within.any():
-        flat, at = z.reshape(m * P, width), slice(n, n + m * P)
+        flat, at = both[:m].reshape(m * P, width), slice(n, n + m * P)
         solved = np.eye(width)
         right = within @ flat
         right[:, at] = np.eye(m * P)

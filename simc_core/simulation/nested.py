@@ -83,7 +83,7 @@ def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
     used = np.flatnonzero(heights)
     outputs = np.zeros((len(t), 2 * N))
     for i in used:
-        outputs += heights[i] * pieces(t - starts[i])[:, :, i]
+        outputs += heights[i] * Pieces(pieces.edges, pieces.coefficients[..., i])(t - starts[i])
     inputs = np.array([held(t, start, height) for start, height in zip(starts, heights, strict=True)])
     if left is not None:
         outputs[left] = sum((heights[i] * left_limits(pieces, t[left] - starts[i])[:, :, i] for i in used), 0.0)
