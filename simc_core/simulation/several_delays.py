@@ -33,6 +33,8 @@ SHARE = 1e-2  # and by this part of its largest response to any of the inputs
 ROUNDING = 1e-14
 MOST_ELEMENTS = 40_000
 LARGEST = 1e150
+GROWTH = 1.02  # of a signal before its size is taken anew
+DIGITS = 11  # behind the point: lengths that agree to so many are the same
 ROOM_AT_FIRST = 128  # elements
 DEGREES = np.arange(P)
 largest = np.maximum.reduce  # along an axis; the method of arrays takes three times as long
@@ -49,7 +51,7 @@ class Steps:
         self.t, self.x, self.steps = 0.0, np.zeros((n, self.inputs)), np.eye(self.inputs)
         self.edges = np.zeros(ROOM_AT_FIRST + 1)
         self.coefficients = np.zeros((ROOM_AT_FIRST, self.signals, P, self.inputs))  # of (z, o), Chebyshev
-        self.count = 0
+        self.count, self.rows = 0, np.arange(self.m)[:, None]
         self.breakpoints = Breakpoints(system)
         self.upcoming = self.breakpoints.next()
         self.h = unit = _unit(system)
@@ -58,6 +60,7 @@ class Steps:
         self.good, self.patience = 0, 1  # elements accepted in a row, and how many before a longer one is tried
         self.maps: dict[float, DelayMap] = {}
         self.largest = np.full((self.signals, self.inputs), 1e-300)
+        self.allowed, self.bounded = TAIL * self.largest, True
         self.lock = Lock()  # one Steps may serve several sessions
 
     def run(self, t_end: float) -> Pieces:
@@ -66,7 +69,7 @@ class Steps:
         All there is so far, which may be more: values [y_1 .. y_N, u_1 .. u_N] x [r, d_1 .. d_N].
         """
         with self.lock, np.errstate(over="ignore", invalid="ignore"):
-            while self.t < t_end * (1 - 1e-12) and np.all(self.largest < LARGEST):
+            while self.t < t_end * (1 - 1e-12) and self.bounded:
                 self._pass_breakpoints()
                 self._step()
             outputs = self.coefficients[: self.count, self.m :]
@@ -101,22 +104,25 @@ class Steps:
 
     def _try(self, length: float) -> tuple[np.ndarray, np.ndarray, float]:
         """One element: coefficients, state at its end, size of the tail relative to what is allowed."""
-        key = float(f"{length:.13e}")
+        key = float(f"{length:.{DIGITS}e}")
         made = self.maps.get(key)
         if made is None:
             made = self.maps[key] = delay_map(self.system, key)
         known = np.concatenate([self.x, self._history(length), self.steps])
         values = (made.coefficients @ known).reshape(self.signals, P, self.inputs)
-        sizes = np.abs(values)
-        size = np.maximum(self.largest, largest(sizes, 1))
-        own = largest(size, 1)
-        allowed = TAIL * np.maximum(size, np.maximum(SHARE * own, FLOOR * largest(own))[:, None])
-        last = largest(sizes[:, -2:], 1)
-        tail = float(largest(last / allowed, None))
-        if tail > 1:  # what cannot be seen in the tail for rounding does not count
+        last = largest(np.abs(values[:, -2:]), 1)
+        tail = float(largest(last / self.allowed, None))
+        if tail > 1:  # if at all, because the signals have grown, or for what is rounding
             noise = ROUNDING * (made.weight @ np.abs(known))
+            _, allowed = self._sizes(values)
             tail = float(largest(np.maximum(last - noise, 0.0) / allowed, None))
         return values, made.end @ known, tail
+
+    def _sizes(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Largest values so far and with this element, and what may remain in a tail, (signals, inputs) both."""
+        size = np.maximum(self.largest, largest(np.abs(values), 1))
+        own = largest(size, 1)
+        return size, TAIL * np.maximum(size, np.maximum(SHARE * own, FLOOR * largest(own))[:, None])
 
     def _history(self, length: float) -> np.ndarray:
         """w at the nodes as far as it lies before this element, (m P, inputs)."""
@@ -131,8 +137,10 @@ class Steps:
         start = self.edges[piece]
         x = 2 * (at - start) / (self.edges[piece + 1] - start) - 1
         basis = np.cos(DEGREES * np.arccos(np.minimum(np.maximum(x, -1.0), 1.0))[..., None])
-        basis[~known] = 0.0
-        earlier = self.coefficients[piece, np.arange(self.m)[:, None]]
+        if not known.all():
+            basis[~known] = 0.0
+        signal = piece * self.signals + self.rows
+        earlier = self.coefficients.reshape(-1, P, self.inputs).take(signal, axis=0)
         return (basis[:, :, None, :] @ earlier).reshape(-1, self.inputs)
 
     def _keep(self, values: np.ndarray, x: np.ndarray, end: float) -> None:
@@ -146,7 +154,9 @@ class Steps:
             self.coefficients = np.concatenate([self.coefficients, np.zeros_like(self.coefficients)])
         self.coefficients[self.count], self.edges[self.count + 1] = values, end
         self.count += 1
-        self.largest = np.maximum(self.largest, largest(np.abs(values), 1))
+        if (largest(np.abs(values), 1) > GROWTH * self.largest).any():
+            self.largest, self.allowed = self._sizes(values)
+            self.bounded = bool(largest(self.largest, None) < LARGEST)
         self.t, self.x = end, x
 
 
