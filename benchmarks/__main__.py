@@ -1,7 +1,8 @@
 """`make bench`: the full recompute of a tuning against python-control with Pade(5) and Pade(10), as ratios.
 
 Both compute y and u for a set-point and a load step at 600 points, step metrics, five frequency responses at 400
-frequencies, all margins, and whether the loop is stable. One pinned core, interleaved, medians. A table, and results/engine.json.
+frequencies, all margins, and whether the loop is stable. One pinned core, interleaved, medians. A table, and
+results/engine.json.
 """
 
 import numpy as np
