@@ -12,7 +12,7 @@ import pytest
 from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, simulate
 from simc_core.simulation.network import network
 from simc_core.simulation.several_delays import Steps
-from tests.core.test_cascade import PAIRS
+from tests.core.pairs import PAIRS
 
 NODES = 32  # of the contour: about 1e-19 of the largest term of the series
 MORE_NODES = 52  # for pair 9, whose terms grow to 1e18
