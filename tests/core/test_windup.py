@@ -36,6 +36,12 @@ def test_limits_hold():
     assert np.min(response.u) >= -0.2
 
 
+def test_a_jump_passed_on_at_once_is_refused():
+    biproper = Plant(1, 0, (2,), (1,))
+    with pytest.raises(InvalidParameter, match="innermost block"):
+        limited(CascadeLoop(Plant(1, 1, (5,)), biproper, ParallelPid(*OUTER), ParallelPid(*INNER)), *LIMITS)
+
+
 def test_bounds():
     with pytest.raises(InvalidParameter, match="u_min <= 0 <= u_max"):
         limited(LOOP, 0.1, 0.6)
@@ -70,7 +76,7 @@ def cascade(theta_b: float, theta_a: float) -> CascadeLoop:
 
 @pytest.mark.parametrize("protection", PROTECTIONS)
 def test_without_dead_time_against_a_general_integrator(protection):
-    """RK45 of scipy, with u at its limits for a good part of the time."""
+    """RK45 of scipy, with u at its limits for a good part of the time. Order two: the error is below dt^2."""
     found = limited(cascade(0, 0), *LIMITS, protection, disturbance2=-0.4, disturbance2_time=LOAD_AT, t_end=40.0)
 
     def slope(t, x):
@@ -80,8 +86,8 @@ def test_without_dead_time_against_a_general_integrator(protection):
     second = solve_ivp(slope, (LOAD_AT, 40), first.y[:, -1], max_step=0.01, rtol=1e-9, atol=1e-11, dense_output=True)
     x = np.where(found.t < LOAD_AT, first.sol(found.t), second.sol(found.t))
     assert np.mean(found.u == LIMITS[1]) > 0.1
-    assert np.max(np.abs(found.y2 - x[0])) < 1e-4
-    assert np.max(np.abs(found.y - x[1])) < 1e-4
+    assert np.max(np.abs(found.y2 - x[0])) < found.t[1] ** 2
+    assert np.max(np.abs(found.y - x[1])) < found.t[1] ** 2
 
 
 @pytest.mark.parametrize("protection", PROTECTIONS)
