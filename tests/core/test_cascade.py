@@ -6,18 +6,11 @@ import numpy as np
 import pytest
 
 from simc_core import (
-    CascadeLoop,
-    InvalidParameter,
-    NotStable,
-    ParallelPid,
     Plant,
-    SeriesPid,
     direct_synthesis,
     margins,
     performance,
     simc_cascade,
-    stability,
-    synthesis_cascade,
 )
 from simc_core.direct_synthesis import numerator
 from tests.core.pairs import PAIRS
@@ -100,26 +93,3 @@ def test_simc_cascade_with_given_peaks():
 def test_IE_of_a_load_is_the_inverse_of_the_integral_gain():
     """IE_d1 = 1/k_ia where y1 stays on one side: IAE is the same; the tight design of pair 1 has IAE_d1 = 14."""
     assert pytest.approx(14.0, rel=1e-6) == performance(simc_cascade(*PAIRS[1], inner="PID").loop).disturbance.IAE
-
-
-def test_a_stable_cascade_round_an_unstable_inner_loop_is_flagged():
-    """Positive feedback inside, held up by the outer loop (shared/cascade.md, method 1)."""
-    primary, secondary = Plant(1.0, 0.0, (0.1,)), Plant(1.0, 0.1, (1.0,))
-    loop = CascadeLoop(primary, secondary, ParallelPid(-2.0, -1.0), ParallelPid(-1.2, 0.0))
-    found = stability(loop)
-    assert found.verdict == "stable"
-    assert found.inner.verdict == "unstable"
-    assert not found.sound
-    assert math.isnan(margins(loop.outer_loop).Ms)
-
-
-def test_errors_say_what_to_do():
-    with pytest.raises(InvalidParameter, match="direct synthesis"):
-        simc_cascade(*PAIRS[6])
-    with pytest.raises(InvalidParameter, match="smallest peak of a stable loop"):
-        synthesis_cascade(*PAIRS[5], 2.0, 2.0)
-    with pytest.raises(InvalidParameter, match="only one of tau_c_inner and Ms_inner"):
-        simc_cascade(*PAIRS[1], tau_c_inner=1.0, Ms_inner=2.0)
-    with pytest.raises(NotStable):
-        performance(CascadeLoop(*PAIRS[1], SeriesPid(5.0, 5.0), SeriesPid(1.5, 3.0)))
-    assert any("N_outer = 1" in note for note in synthesis_cascade(*PAIRS[4]).notes)
