@@ -11,7 +11,7 @@ import pytest
 
 from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, simulate
 from simc_core.simulation.network import network
-from simc_core.simulation.several_delays import Steps
+from simc_core.simulation.several_delays import Steps, steps_of
 from tests.core.pairs import PAIRS
 
 NODES = 32  # of the contour: about 1e-19 of the largest term of the series
@@ -112,6 +112,21 @@ def test_ten_pairs_against_forty_digits(pair):
         found = simulate(loop, Scenario(t=t, **heights, **times))
         error = np.abs(np.array([found.y, found.y2, found.u]).T - wanted[:, :, column])
         assert np.max(error / np.maximum(1, np.abs(wanted[:, :, column]))) < 1e-9
+
+
+@pytest.mark.parametrize("pair", PAIRS)
+def test_integrals_to_the_end(pair):
+    """y1 after a load step has the integral -1/k_ia times the change of the outer integrator: 1/k_ia for d1, 0 for d2
+    [PSB]. Says that nothing is lost on the long way to rest, with elements of all lengths."""
+    pieces = steps_of(loop_of(pair).nested).run(400 * sum(block.theta for block in PAIRS[pair]))
+    y1 = pieces.coefficients[:, :, 1, :]
+    even = np.array([1 / (1 - k**2) if k % 2 == 0 else 0.0 for k in range(16)])  # mean of T_k over [-1, 1]
+    means = np.einsum("ikv,k->iv", y1, even)
+    found = np.diff(pieces.edges) @ means
+    scale = np.diff(pieces.edges) @ np.abs(means)
+    k_ia = SETTINGS[pair][0][1]
+    assert found[2] == pytest.approx(1 / k_ia, rel=1e-8)
+    assert abs(found[1]) < 1e-8 * max(scale[1], 1 / k_ia)
 
 
 def test_one_controller_round_both_blocks_is_a_single_loop():
