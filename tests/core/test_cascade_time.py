@@ -5,6 +5,8 @@ sum over k, i of (-1)^k binomial(k, i) Lb^k (Ca Ga)^i e^{-(k theta_b + i theta_a
 k theta_b + i theta_a < t matter. Each is inverted on a Talbot contour by mpmath arithmetic; no code is shared.
 """
 
+from dataclasses import replace
+
 import mpmath
 import numpy as np
 import pytest
@@ -159,6 +161,17 @@ def test_a_tiny_inner_dead_time(ratio):
     half = steps_of(Plant(1, 1 / ratio, (2, 3)))
     y, y_half, y_none = (each.run(80.0)(t)[:, 1, 0] for each in (tiny, half, none))
     assert np.max(np.abs(y - y_none)) == pytest.approx(2 * np.max(np.abs(y_half - y_none)), rel=0.1)
+
+
+def test_a_fast_filter_costs_no_elements():
+    """Kd/tau_F = 1e5: u is the small difference of large numbers, and its rounding must not be taken for detail."""
+    Ga, Gb = Plant(2, 2, (5,)), Plant(1, 0.1, (2, 3))
+    C = ParallelPid(40.0, 8.0, 50.0, 5e-4)
+    sharp = Steps(network(NestedLoops((Gb, Ga), (C, ParallelPid(0.5, 0.09)))))
+    blunt = Steps(network(NestedLoops((Gb, Ga), (replace(C, tau_F=0.01), ParallelPid(0.5, 0.09)))))
+    for steps in (sharp, blunt):
+        assert steps.run(400.0)(np.array([400.0]))[0, 1, 0] == pytest.approx(1.0, abs=1e-9)
+    assert sharp.count < 2 * blunt.count
 
 
 def test_load_steps_settle_and_jumps_are_shown_from_both_sides():
