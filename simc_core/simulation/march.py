@@ -38,7 +38,7 @@ SMOOTH = 7  # order of derivative from which a jump is left to the tails
 REST = 1e-11  # of the largest value: nearer than this to where it ends, a response is at rest
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors
-MOST_ROUNDS, MOST_TO_REST = 12_000, 5_000  # elements of one tuning
+MOST_TO_END, MOST_TO_REST = 20_000, 6_000  # elements of one tuning, 30 us each
 LOWEST, HIGHEST = -48, 60  # levels
 FORGOTTEN = 40.0  # time constants of the filter after which the step has gone through it
 LARGEST = 1e150  # an unstable response is cut off here
@@ -51,7 +51,7 @@ def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Co
     """All tunings from rest to t_end, or to their rest (t_end = None, for stable loops).
 
     forms: controllers with one tau_F. Raises InvalidParameter: derivative action without filter where y or r may jump;
-    an ill-posed loop without dead time; a t_end that needs more than MOST_ROUNDS elements.
+    an ill-posed loop without dead time; a t_end that needs more than MOST_TO_END elements.
     """
     _check(plant, forms)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -147,16 +147,17 @@ class _Walk:
 
     def elements(self) -> None:
         """On at every tuning's own pace."""
-        for _ in range(MOST_TO_REST if self.t_end is None else MOST_ROUNDS):
-            if not self.active:
-                return
+        work, most = 0, MOST_TO_REST if self.t_end is None else MOST_TO_END
+        while self.active and work < most:
             groups: dict[tuple[int, int], list[int]] = {}
             for i in self.active:
                 groups.setdefault((self.before[i], self.level[i]), []).append(i)
             self._groups(groups)
-        if self.t_end is not None:
+            on_mesh = self.theta > 0 and any(level == 0 for _, level in groups)
+            work += len(self.levels.mesh) if on_mesh else 1
+        if self.active and self.t_end is not None:
             raise InvalidParameter(
-                f"t_end must need at most {MOST_ROUNDS} elements, got {self.t_end:.4g}, of which they cover "
+                f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
                 f"{min(self.t[i] for i in self.active):.4g}: the loop oscillates too fast for it"
             )
 
