@@ -15,7 +15,7 @@ from simc_core.plant import Plant
 from simc_core.simulation.elements import NODES, TO_CHEBYSHEV, P, mesh
 from simc_core.simulation.measured import SIGNALS, Measured
 
-AHEAD = 6  # levels made at once
+AHEAD = 8  # levels made at once
 EYE = np.eye(P)
 
 
@@ -23,18 +23,15 @@ EYE = np.eye(P)
 class Level:
     """One element. length, nodes: from its start.   B: (P, P), its own z at t - theta.
 
-    signals: (4 P + n, n + P), states at the start and w -> y, p, p', int p at the nodes, and states at the end.
-    back: (3, P P), w -> p, p', int p.   free: what of `signals` comes from the states.   driven: (P + 1 + n, P), w -> y
-    at the nodes, int p at the end, states at the end.
+    signals: (4 P, n + P), states at the start and w -> y, p, p', int p at the nodes.
+    outcome: (P + 1 + n, n + P), -> y at the nodes, int p at the end, states at the end.
     """
 
     length: float
     nodes: np.ndarray
     B: np.ndarray
     signals: np.ndarray
-    back: np.ndarray
-    free: np.ndarray
-    driven: np.ndarray
+    outcome: np.ndarray
 
 
 class Levels:
@@ -61,14 +58,11 @@ class Levels:
     def _make(self, wanted: list[int]) -> None:
         lengths = self.unit * 2.0 ** np.array(wanted)
         outputs, ends = self.chain.elements(lengths)
-        n, count = self.chain.n, len(wanted)
-        signals = np.concatenate([outputs.reshape(count, SIGNALS * P, n + P), ends], axis=1)
-        back = outputs[:, 1:, :, n:].reshape(count, SIGNALS - 1, P * P)
-        free = signals[:, :, :n].copy()
-        driven = np.concatenate([outputs[:, 0, :, n:], outputs[:, 3, -1:, n:], ends[:, :, n:]], axis=1)
+        outcome = np.concatenate([outputs[:, 0], outputs[:, 3, -1:], ends], axis=1)
+        signals = outputs.reshape(len(wanted), SIGNALS * P, -1)
         for i, (each, h) in enumerate(zip(wanted, lengths.tolist(), strict=True)):
             B = _within(each) if self.theta else EYE
-            self._made[each] = Level(h, h * NODES, B, signals[i], back[i], free[i], driven[i])
+            self._made[each] = Level(h, h * NODES, B, signals[i], outcome[i])
 
     def history(self, before: int, level: int) -> np.ndarray:
         """From z at the nodes of the element before to z(t - theta) at those of the next, as far as it lies there.

@@ -1,9 +1,8 @@
 """Unit step responses of one plant under many controllers at once: the method of steps on elements that grow.
 
-    w(t) = z(t - theta),   z = u + d,   u = f(t) + xi - Kp p - Kd p' - Ki int p     (measured.py: w -> y, p, p', int p)
+    w(t) = z(t - theta)      z = u + d from w: the plant's maps (measured.py, levels.py), the controllers' law (law.py)
 
-f is what the set point does, known in closed form; xi is the integral at the start of the element. All that differs
-between tunings are the gains in this law: the plant's maps are one matrix product for all of them.
+The maps are the same for all tunings of a plant.
 
 Intervals. Over [k theta, (k+1) theta] w is known from the interval before. Jumps and kinks sit at k theta, on edges,
 and cost no accuracy; a mesh that is fine at its start holds the fast modes that they excite.
@@ -28,8 +27,8 @@ from simc_core.errors import InvalidParameter
 from simc_core.plant import Plant
 from simc_core.simulation.course import Course, Stretch, course
 from simc_core.simulation.elements import TO_CHEBYSHEV, P
+from simc_core.simulation.law import Law
 from simc_core.simulation.levels import EYE, levels
-from simc_core.simulation.measured import SIGNALS
 
 TAIL = 1e-12
 ROOM = 3e-3  # of TAIL: so small a tail lets the next element be longer at once
@@ -40,11 +39,9 @@ COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often
 ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors
 MOST_TO_END, MOST_TO_REST = 12_000, 6_000  # elements of one tuning, 30 us each
 LOWEST, HIGHEST = -48, 60  # levels
-FORGOTTEN = 40.0  # time constants of the filter after which the step has gone through it
 LARGEST = 1e150  # an unstable response is cut off here
 WELL_POSED = 1e-12
-LAST = TO_CHEBYSHEV[-2:]
-STEP_R, STEP_D = np.array([1.0, 0.0]), np.array([0.0, 1.0])  # columns: unit step of r, unit step of d
+VALUES_AND_LAST = np.concatenate([EYE, TO_CHEBYSHEV[-2:]])  # of nodal values: these and the last two coefficients
 
 
 def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Course:
@@ -89,32 +86,24 @@ class _TooCoarse(Exception):
 
 
 class _Walk:
-    """State of the march: x (n_x, n, 2), xi (n, 2), z at the nodes of the element before; each tuning's own pace.
-
-    gains: Kp, Kd, Ki, (3, n, 1).
-    """
+    """State of the march: x (n, n_x, 2), xi (n, 2), z at the nodes of the element before; each tuning's own pace."""
 
     def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int):
         n = len(forms)
         self.levels = levels(plant, forms[0].tau_F, any(form.Kd for form in forms), finer)
+        self.law = Law(forms, self.levels)
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
-        self.chain, self.theta, self.t_end, self.n = self.levels.chain, plant.theta, t_end, n
-        self.gains = np.array(
-            [[[form.Kp] for form in forms], [[form.Kd] for form in forms], [[form.Ki] for form in forms]]
-        )
-        self.ahead = np.array([form.Kp * form.b for form in forms])  # proportional action on the set point
-        self.kick = np.array([form.Kd * form.c for form in forms])
-        self.final = np.array([final_values(plant, form) for form in forms]).transpose(1, 0, 2)
-        self.final[1] += STEP_D  # of z
-        self.x, self.xi = np.zeros((self.chain.n, n, 2)), np.zeros((n, 2))
-        self.z = np.zeros((P * max(len(self.levels.mesh), 1), n, 2))
-        self.largest = np.full((2, n, 2), 1e-300)
+        self.theta, self.t_end, self.n = plant.theta, t_end, n
+        self.final = np.array([final_values(plant, form).ravel() for form in forms])
+        self.final[:, 3] += 1.0  # of z
+        self.x, self.xi = np.zeros((n, self.levels.chain.n, 2)), np.zeros((n, 2))
+        self.z = np.zeros((n, P * max(len(self.levels.mesh), 1), 2))
+        self.largest = np.full((n, 4), 1e-300)
         self.at_rest = [False] * n
         self.t, self.level, self.before = [0.0] * n, [0] * n, [0] * n  # before: level of the element before
         self.good, self.patience = [0] * n, [PATIENCE] * n  # elements since the last change, and how many there must be
         self.mark, self.away_at_mark = [0.0] * n, [math.inf] * n
         self.active = dict.fromkeys(range(n))
-        self.set_points: dict[int, np.ndarray] = {}
         self.stretches: list[Stretch] = []
 
     def arrives(self) -> bool:
@@ -134,16 +123,15 @@ class _Walk:
         if self.t_end is not None:
             count = min(count, math.floor(self.t_end / self.theta * (1 + 1e-12)) + 1)
         for _ in range(max(count - 1, 0)):
-            found = self._interval(slice(None), np.array(self.t[:1]), 0)
-            self._keep(everyone, slice(None), 0, self.theta, *found)
+            self._keep(everyone, slice(None), 0, self.theta, *self._interval(everyone, slice(None), 0))
         self._groups({(0, 0): everyone})
 
     def _degree(self) -> int:
         """Least relative degree of the loops."""
-        degree = self.chain.relative_degree
-        if self.gains[1].any():
-            return degree - (not self.chain.tau_F)
-        return degree + (self.chain.tau_F > 0) + (not self.gains[0].any())
+        chain, (Kp, Kd, _) = self.levels.chain, self.law.gains.T
+        if Kd.any():
+            return chain.relative_degree - (not chain.tau_F)
+        return chain.relative_degree + (chain.tau_F > 0) + (not Kp.any())
 
     def elements(self) -> None:
         """On at every tuning's own pace."""
@@ -164,94 +152,58 @@ class _Walk:
     def _groups(self, groups: dict[tuple[int, int], list[int]]) -> None:
         for (before, level), which in groups.items():
             at = slice(None) if len(which) == self.n else np.array(which)
-            begin = np.array([self.t[i] for i in which])
             if level == 0 and self.theta:
-                self._decide(which, at, 0, self.theta, *self._interval(at, begin, before))
+                self._decide(which, at, 0, self.theta, *self._interval(which, at, before))
             else:
-                self._decide(which, at, level, self.levels[level].length, *self._element(at, begin, before, level))
+                length = self.levels[level].length
+                self._decide(which, at, level, length, *self._element(which, at, before, level))
 
-    def _interval(self, at, begin: np.ndarray, before: int):
+    def _interval(self, which: list[int], at, before: int):
         """One interval of theta on the mesh: w is z of the interval before. As _element."""
-        x, xi, w = self.x[:, at], self.xi[at], self.z[:, at]
+        x, xi, w, values = self.x[at], self.xi[at], self.z[at], []
         if before:
-            w = _applied(self.levels.history(before, 0), w[-P:])
-        k, values = w.shape[1], np.empty((2, *w.shape))
+            w = self.levels.history(before, 0) @ w[:, -P:]
+        begin = [self.t[i] for i in which]
         for e, level in enumerate(self.levels.mesh):
-            made, own = self.levels[level], slice(e * P, (e + 1) * P)
-            flat = made.signals @ np.concatenate([x.reshape(len(x), 2 * k), w[own].reshape(P, 2 * k)])
-            signals = flat[: SIGNALS * P].reshape(SIGNALS, P, k, 2)
-            values[0, own] = signals[0]
-            values[1, own] = self._known(at, begin, xi, level) - self._fed_back(at, signals)
-            x = flat[SIGNALS * P :].reshape(len(x), k, 2)
-            xi = self._integral(at, begin, xi, made.length, signals[3, -1])
-            begin = begin + made.length
-        return values, x, xi
+            known = self.law.known(at, level, begin, xi)
+            own, x, xi = self._answer(at, level, begin, xi, known, x, w[:, e * P : (e + 1) * P])
+            values.append(own)
+            begin = [each + self.levels[level].length for each in begin]
+        return np.concatenate(values, axis=1) if len(values) > 1 else values[0], x, xi
 
-    def _element(self, at, begin: np.ndarray, before: int, level: int):
-        """One element of theta 2^level, w and z together: y and z at its nodes (2, P, k, 2), x and xi at its end."""
-        made, x, xi = self.levels[level], self.x[:, at], self.xi[at]
-        k = x.shape[1]
-        free = _applied(made.free, x)
-        signals = free[: SIGNALS * P].reshape(SIGNALS, P, k, 2)
-        c = self._known(at, begin, xi, level) - self._fed_back(at, signals)
-        right = _applied(made.B, c)
+    def _element(self, which: list[int], at, before: int, level: int):
+        """One element of theta 2^level, w and z together: y and z at its nodes (k, P, 4), x and xi at its end."""
+        made, x, xi, n = self.levels[level], self.x[at], self.xi[at], self.levels.chain.n
+        begin, feedback = [self.t[i] for i in which], self.law[level].feedback[at]
+        known = self.law.known(at, level, begin, xi)
+        right = made.B @ (known - feedback[:, :, :n] @ x)
         if self.theta:
-            right += _applied(self.levels.history(before, level), self.z[-P:, at] if before else self.z[:, at])
-        Z = (self.gains[:, at, 0].T @ made.back).reshape(k, P, P)
-        w = np.linalg.solve(EYE + made.B @ Z, right.transpose(1, 0, 2))
-        driven = _applied(made.driven, w.transpose(1, 0, 2))
-        values = np.empty((2, P, k, 2))
-        values[0] = signals[0] + driven[:P]
-        values[1] = c - (Z @ w).transpose(1, 0, 2)
-        end = free[SIGNALS * P :] + driven[P + 1 :]
-        return values, end, self._integral(at, begin, xi, made.length, signals[3, -1] + driven[P])
+            right += self.levels.history(before, level) @ (self.z[at, -P:] if before else self.z[at])
+        w = np.linalg.solve(EYE + made.B @ feedback[:, :, n:], right)
+        return self._answer(at, level, begin, xi, known, x, w)
 
-    def _fed_back(self, at, signals: np.ndarray) -> np.ndarray:
-        """Kp p + Kd p' + Ki int p."""
-        Kp, Kd, Ki = self.gains[:, at]
-        total = Kp * signals[1] + Ki * signals[3]
-        return total + Kd * signals[2] if self.chain.derivative else total
-
-    def _known(self, at, begin: np.ndarray, xi: np.ndarray, level: int) -> np.ndarray:
-        """xi, the steps and f at the nodes, (P, k, 2): all of z that does not come back from the plant.
-
-        f = Kp b rF + Ki int rF + Kd c rF' of a unit step that has gone through the filter.
-        """
-        base, s = self.set_points.get(level), self.levels[level].nodes[:, None]
-        if base is None:
-            base = (self.ahead + s * self.gains[2, :, 0])[:, :, None] * STEP_R + STEP_D
-            self.set_points[level] = base
-        known = base[:, at] + xi
-        left = self._unsettled(begin)
-        if left is not None:
-            tau_F = self.chain.tau_F
-            fall = np.exp(s / -tau_F)
-            held = (self.kick[at] / tau_F - self.ahead[at]) * fall - self.gains[2, at, 0] * tau_F * (1 - fall)
-            known[:, :, 0] += left * held
-        return known
-
-    def _integral(self, at, begin: np.ndarray, xi: np.ndarray, length: float, of_p: np.ndarray) -> np.ndarray:
-        """xi at the end: + Ki (int rF - int p)."""
-        gained, left = -of_p, self._unsettled(begin)
-        gained[:, 0] += length
-        if left is not None:
-            gained[:, 0] += self.chain.tau_F * math.expm1(-length / self.chain.tau_F) * left
-        return xi + self.gains[2, at] * gained
-
-    def _unsettled(self, begin: np.ndarray) -> np.ndarray | None:
-        """1 - rF at the start of the element; None where nothing of it is left."""
-        tau_F = self.chain.tau_F
-        return np.exp(begin / -tau_F) if tau_F and begin.min() < FORGOTTEN * tau_F else None
+    def _answer(self, at, level: int, begin: list[float], xi: np.ndarray, known: np.ndarray, x: np.ndarray, w):
+        made, given = self.levels[level], np.concatenate([x, w], axis=1)
+        z = known - self.law[level].feedback[at] @ given
+        out = made.outcome @ given
+        return (
+            np.concatenate([out[:, :P], z], axis=2),
+            out[:, P + 1 :],
+            self.law.integral(at, begin, xi, made.length, out[:, P]),
+        )
 
     def _decide(self, which: list[int], at, level: int, length: float, values, x, xi) -> None:
         """Keep what is good enough, shorten what is not; choose the level of the next element."""
         k = len(which)
-        sizes = np.abs(values).max(axis=1)
-        largest = np.maximum(self.largest[:, at], sizes)
-        tails = np.abs(LAST @ values.reshape(2, -1, P, 2 * k)).max(axis=(1, 2)).reshape(2, k, 2)
-        away = np.abs(values - self.final[:, None, at]).max(axis=1) if self.t_end is None else tails
-        tails, away, size = (np.stack([tails / largest, away / largest, largest]).max(axis=(1, 3))).tolist()
         on_mesh = level == 0 and self.theta > 0
+        sizes = (
+            np.abs(VALUES_AND_LAST @ values.reshape(k, -1, P, 4)).max(axis=1)
+            if on_mesh
+            else np.abs(VALUES_AND_LAST @ values)
+        )
+        sizes, tails = np.maximum.reduceat(sizes, (0, P), axis=1).transpose(1, 0, 2)
+        largest = np.maximum(self.largest[at], sizes)
+        tails = (tails / largest).max(axis=1).tolist()
         if on_mesh and max(tails) > self.coarse:
             raise _TooCoarse
         good = [j for j, tail in enumerate(tails) if tail <= TAIL or on_mesh]
@@ -260,22 +212,32 @@ class _Walk:
                 self._shorten(which[j], level)
             if not good:
                 return
-            which, tails, away, size = ([each[j] for j in good] for each in (which, tails, away, size))
-            values, x, xi, largest = values[:, :, good], x[:, good], xi[good], largest[:, good]
+            which, tails = [which[j] for j in good], [tails[j] for j in good]
+            values, x, xi, largest = values[good], x[good], xi[good], largest[good]
             at = np.array(which)
         self._keep(which, at, level, length, values, x, xi)
-        self.largest[:, at] = largest
-        for i, tail, far, large in zip(which, tails, away, size, strict=True):
+        self.largest[at] = largest
+        away = self._away(at, values, largest) if self.t_end is None else tails
+        for i, tail, far, size in zip(which, tails, away, largest.max(axis=1).tolist(), strict=True):
             self._lengthen(i, tail, level)
-            if not large < LARGEST or self._arrived(i, far):
+            if not size < LARGEST or self._arrived(i, far):
                 del self.active[i]
+
+    def _away(self, at, values: np.ndarray, largest: np.ndarray) -> list[float]:
+        """How far from its final value each response is, over its largest value: at the end, and if that is near,
+        in all of the element."""
+        final = self.final[at]
+        away = (np.abs(values[:, -1] - final) / largest).max(axis=1)
+        if away.min() <= ROUNDING:
+            away = (np.abs(values - final[:, None]).max(axis=1) / largest).max(axis=1)
+        return away.tolist()
 
     def _keep(self, which: list[int], at, level: int, length: float, values, x, xi) -> None:
         """Enter a stretch, and go on from its end."""
         lengths = tuple(self.theta * part for part in self.levels.shape) if level == 0 and self.theta else (length,)
         self.stretches.append(Stretch(which, [self.t[i] for i in which], lengths, values))
-        self.x[:, at], self.xi[at] = x, xi
-        self.z[-values.shape[1] :, at] = values[1]
+        self.x[at], self.xi[at] = x, xi
+        self.z[at, -values.shape[1] :] = values[:, :, 2:]
         for i in which:
             self.t[i] += length
             self.before[i] = level
@@ -306,9 +268,3 @@ class _Walk:
             self.mark[i], self.away_at_mark[i] = self.t[i], away
         self.at_rest[i] = rest
         return rest
-
-
-def _applied(matrix: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """matrix (p, q) on the first axis of values (q, k, 2)."""
-    _, k, two = values.shape
-    return (matrix @ values.reshape(len(values), k * two)).reshape(len(matrix), k, two)
