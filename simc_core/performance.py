@@ -12,7 +12,7 @@ import numpy as np
 
 from simc_core.errors import NotStable
 from simc_core.loop import Loop
-from simc_core.metrics import Steps, measures, rise_and_settling
+from simc_core.metrics import Steps, measures
 from simc_core.simulation.course import Course
 from simc_core.simulation.simulate import settled
 from simc_core.stability import stability
@@ -87,6 +87,5 @@ def both_steps(course: Course) -> Steps:
 def metrics_of(steps: Steps) -> tuple[StepMetrics, ...]:
     """All metrics of each response."""
     found = measures(steps)
-    rise, settling = rise_and_settling(steps, found.peak)
-    columns = (found.IAE, found.ISE, found.ITAE, found.TV, found.overshoot, found.peak, found.peak_time, rise, settling)
+    columns = [getattr(found, name) for name in StepMetrics.__slots__]
     return tuple(StepMetrics(*row) for row in np.array(columns).T.tolist())
