@@ -1,7 +1,7 @@
 """Where polynomials given by Chebyshev coefficients change sign on [-1, 1]: many at once.
 
 A series with |c_0| > sum |c_k| has no zero. The others are sampled; where one is known to turn (a maximum or minimum),
-it is looked at as well, so that no narrow lobe between two samples is lost. Brackets are polished by Newton kept inside.
+it is looked at as well, so that no narrow lobe between two samples is lost. Brackets are polished by bracketed Newton.
 """
 
 from dataclasses import dataclass
