@@ -20,8 +20,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from simc_core.characteristic import limit_at_origin, log_leading, sign_leading
-from simc_core.factors import Factored
+from simc_core.factors import Factored, degree, product, roots_of, rows_of, without_common
 
 
 class Asymptote(NamedTuple):
@@ -51,14 +50,15 @@ class FactoredResponse:
     """A Factored as a Response."""
 
     def __init__(self, L: Factored):
+        num, den, _ = without_common(rows_of(L.num), rows_of(L.den))
         self.theta = L.theta
-        poles, zeros = L.poles, L.zeros
-        self.roots = np.concatenate([poles[poles != 0], zeros[zeros != 0]])
-        origin = int(np.sum(zeros == 0)) - int(np.sum(poles == 0))
-        self.at_zero = Asymptote(limit_at_origin(L), origin)
-        self.at_infinity = Asymptote(sign_leading(L) * math.exp(log_leading(L)), -L.relative_degree)
-        self._rows = np.concatenate([L.num, L.den])
-        self._signs = np.concatenate([np.ones(len(L.num)), -np.ones(len(L.den))])
+        self.roots = np.array([root for root in roots_of(num + den) if root], dtype=complex)
+        origin = sum(c == 0 for *_, c in num) - sum(c == 0 for *_, c in den)
+        self.at_zero = Asymptote(product(L.gain, [c or b for _, b, c in num], [c or b for _, b, c in den]), origin)
+        leading = product(L.gain, [a or b or c for a, b, c in num], [a or b or c for a, b, c in den])
+        self.at_infinity = Asymptote(leading, degree(num) - degree(den))
+        self._rows = np.array([*num, *den]).reshape(-1, 3)
+        self._signs = np.array([1.0] * len(num) + [-1.0] * len(den))
         self._gain = complex(math.log(abs(L.gain)), -math.pi if L.gain < 0 else 0.0)
 
     def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -1,0 +1,56 @@
+"""Frequencies of many loops in one row: ascending for each loop, with the number of the loop beside each.
+
+Neighbours bound a segment, unless they belong to different loops or to segments that are done with.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+MOST_PIECES = 16  # of one segment in one pass
+SPLIT_TOGETHER = 3000  # segments; their nodes make one row
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Nodes:
+    """omega, owner: shape (N,); owner is the number of the loop.   live: shape (N-1,), whether neighbours bound a segment."""
+
+    omega: np.ndarray
+    owner: np.ndarray
+    live: np.ndarray
+
+
+def geometric(first: np.ndarray, last: np.ndarray, per_decade: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """omega and owner of grids from first[i] to last[i] for every loop i, and the index at which each of them ends."""
+    logs = np.log(first)
+    span = np.log(last) - logs
+    counts = 2 + (span * (per_decade / np.log(10.0))).astype(int)
+    owner, place = ragged(counts)
+    omega = np.exp(logs[owner] + (span / (counts - 1))[owner] * place)
+    ends = np.cumsum(counts) - 1
+    omega[ends] = last
+    return omega, owner, ends
+
+
+def ragged(counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """For rows of counts[i] entries, one behind the other: the row of each entry, and its place in the row."""
+    row = np.repeat(np.arange(counts.size), counts)
+    return row, np.arange(row.size) - (np.cumsum(counts) - counts)[row]
+
+
+def split(nodes: Nodes, going: np.ndarray, excess: np.ndarray) -> list[Nodes]:
+    """The segments `going`, each in ceil(excess) parts, 2 to MOST_PIECES; geometric where it spans more than a factor 2."""
+    at = np.flatnonzero(going)
+    return [_split(nodes, part, excess[part]) for part in np.split(at, range(SPLIT_TOGETHER, at.size, SPLIT_TOGETHER)) if part.size]
+
+
+def _split(nodes: Nodes, at: np.ndarray, excess: np.ndarray) -> Nodes:
+    pieces = np.clip(np.ceil(excess), 2, MOST_PIECES).astype(int)
+    segment, place = ragged(pieces + 1)
+    a, b = nodes.omega[at][segment], nodes.omega[at + 1][segment]
+    part = place / pieces[segment]
+    wide = (a > 0) & (b > 2 * a)
+    ratio = np.divide(b, a, out=np.ones_like(b), where=wide)
+    omega = np.where(wide, a * ratio**part, a + (b - a) * part)
+    omega = np.where(part == 1, b, omega)
+    return Nodes(omega, nodes.owner[at][segment], place[1:] > 0)
