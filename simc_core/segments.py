@@ -3,6 +3,7 @@
 Neighbours bound a segment, unless they belong to different loops or to segments that are done with.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,28 +21,35 @@ class Nodes:
     live: np.ndarray
 
 
-def geometric(first: np.ndarray, last: np.ndarray, per_decade: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """omega and owner of grids from first[i] to last[i] for every loop i, and the index at which each of them ends."""
-    logs = np.log(first)
-    span = np.log(last) - logs
-    counts = 2 + (span * (per_decade / np.log(10.0))).astype(int)
-    owner, place = ragged(counts)
-    omega = np.exp(logs[owner] + (span / (counts - 1))[owner] * place)
-    ends = np.cumsum(counts) - 1
+def geometric(
+    first: np.ndarray, last: np.ndarray, per_decade: float, before: int = 0
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """omega and owner of grids from first[i] to last[i] for every loop i, and the index at which each of them ends.
+
+    before: more nodes ahead of first[i].
+    """
+    start = np.log(first)
+    span = np.log(last) - start
+    counts = (span * (per_decade / math.log(10.0))).astype(int) + 2
+    step = span / (counts - 1)
+    owner, place = ragged(counts + before)
+    omega = np.exp(start[owner] + step[owner] * (place - before))
+    ends = (counts + before).cumsum() - 1
     omega[ends] = last
     return omega, owner, ends
 
 
 def ragged(counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """For rows of counts[i] entries, one behind the other: the row of each entry, and its place in the row."""
-    row = np.repeat(np.arange(counts.size), counts)
-    return row, np.arange(row.size) - (np.cumsum(counts) - counts)[row]
+    row = np.arange(counts.size).repeat(counts)
+    return row, np.arange(row.size) - (counts.cumsum() - counts)[row]
 
 
 def split(nodes: Nodes, going: np.ndarray, excess: np.ndarray) -> list[Nodes]:
     """The segments `going`, each in ceil(excess) parts, 2 to MOST_PIECES; geometric where it spans more than a factor 2."""
     at = np.flatnonzero(going)
-    return [_split(nodes, part, excess[part]) for part in np.split(at, range(SPLIT_TOGETHER, at.size, SPLIT_TOGETHER)) if part.size]
+    parts = [at[i : i + SPLIT_TOGETHER] for i in range(0, at.size, SPLIT_TOGETHER)]
+    return [_split(nodes, part, excess[part]) for part in parts]
 
 
 def _split(nodes: Nodes, at: np.ndarray, excess: np.ndarray) -> Nodes:
