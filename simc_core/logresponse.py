@@ -15,12 +15,18 @@ loop of a cascade, Ca Ga Tb, or of more nested loops: Series(FactoredResponse(Ca
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from simc_core.factors import Factored, degree, product, roots_of, rows_of, without_common
+
+
+Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
+
+ONE = (0.0, 0.0, 1.0)
 
 
 class Asymptote(NamedTuple):
@@ -43,7 +49,7 @@ class Response(Protocol):
     at_zero: Asymptote
     at_infinity: Asymptote
 
-    def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]: ...
+    def log_derivatives(self, omega: np.ndarray) -> Logs: ...
 
 
 class FactoredResponse:
@@ -57,17 +63,46 @@ class FactoredResponse:
         self.at_zero = Asymptote(product(L.gain, [c or b for _, b, c in num], [c or b for _, b, c in den]), origin)
         leading = product(L.gain, [a or b or c for a, b, c in num], [a or b or c for a, b, c in den])
         self.at_infinity = Asymptote(leading, degree(num) - degree(den))
-        self._rows = np.array([*num, *den]).reshape(-1, 3)
-        self._signs = np.array([1.0] * len(num) + [-1.0] * len(den))
-        self._gain = complex(math.log(abs(L.gain)), -math.pi if L.gain < 0 else 0.0)
+        self.gain, self.num, self.den = L.gain, num, den
+        self._alone = Together([self])
 
-    def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def log_derivatives(self, omega: np.ndarray) -> Logs:
         """See Response."""
-        a, b, c = self._rows.T[:, :, None]
-        q = (c - a * omega**2) + 1j * (b * omega)
-        slope = (b + 2j * a * omega) / q
-        log = self._signs @ np.log(q) + self._gain - 1j * self.theta * omega
-        return log, 1j * (self._signs @ slope) - 1j * self.theta, self._signs @ (slope**2 - 2 * a / q)
+        return self._alone.log_derivatives(omega)
+
+
+class Together:
+    """Several FactoredResponses, evaluated together. Lists of different length are filled up with factors 1."""
+
+    def __init__(self, responses: Sequence[FactoredResponse]):
+        top = max(len(response.num) for response in responses)
+        bottom = max(len(response.den) for response in responses)
+        rows = [
+            [*r.num, *[ONE] * (top - len(r.num)), *r.den, *[ONE] * (bottom - len(r.den))] for r in responses
+        ]
+        self.a, self.b, self.c = np.ascontiguousarray(np.array(rows).reshape(len(rows), -1, 3).T)  # (M, n) each
+        self.signs = np.array([1.0] * top + [-1.0] * bottom)
+        self.bends = self.a.any()
+        self.thetas = np.array([response.theta for response in responses])
+        self.sizes = np.array([math.log(abs(response.gain)) for response in responses])
+        self.turns = np.array([-math.pi if response.gain < 0 else 0.0 for response in responses])
+
+    def log_derivatives(self, omega: np.ndarray, owner: np.ndarray | None = None) -> Logs:
+        """As in Response, of the response owner[i] at omega[i]; with one response owner does not matter."""
+        a, b, c, theta, size, turn = self.a, self.b, self.c, self.thetas, self.sizes, self.turns
+        if theta.size > 1:
+            a, b, c, theta, size, turn = a[:, owner], b[:, owner], c[:, owner], theta[owner], size[owner], turn[owner]
+        q = np.empty((len(a), omega.size), dtype=complex)
+        q.real, q.imag = c - a * (omega * omega) if self.bends else c, b * omega
+        inverse = 1 / q
+        slope = (b + 2j * a * omega if self.bends else b) * inverse
+        bend = slope * slope
+        if self.bends:
+            bend -= 2 * a * inverse
+        log = np.empty(omega.size, dtype=complex)
+        log.real = self.signs @ np.log(np.abs(q)) + size
+        log.imag = self.signs @ np.angle(q) + (turn - theta * omega)
+        return log, 1j * (self.signs @ slope - theta), self.signs @ bend
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -101,7 +136,7 @@ class Closed:
         gain, power = self.inner.at_infinity
         return Asymptote(gain / (1 + gain), 0) if power == 0 and self.theta == 0 else self.inner.at_infinity
 
-    def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def log_derivatives(self, omega: np.ndarray) -> Logs:
         """See Response; the argument is a principal value."""
         log, first, second = self.inner.log_derivatives(omega)
         S, T = sensitivities(log)
@@ -135,7 +170,7 @@ class Series:
         """Product of both."""
         return _product(self.one.at_infinity, self.other.at_infinity)
 
-    def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def log_derivatives(self, omega: np.ndarray) -> Logs:
         """See Response."""
         one, other = self.one.log_derivatives(omega), self.other.log_derivatives(omega)
         return one[0] + other[0], one[1] + other[1], one[2] + other[2]

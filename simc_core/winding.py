@@ -23,7 +23,7 @@ from simc_core.segments import Nodes, geometric, split
 
 MOST_SEGMENTS = 60_000  # of one loop, about 0.1 s; a usual one needs 30 to 100
 TOGETHER = 256  # loops
-GRID_PER_DECADE = 10
+GRID_PER_DECADE = 16
 
 
 @dataclass(frozen=True, slots=True)
