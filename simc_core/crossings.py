@@ -12,16 +12,18 @@ asked for, are then polished by bracketed Newton steps with the derivatives in c
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.logresponse import FactoredResponse, Response, Together, sensitivities
+from simc_core.logresponse import LARGEST, FactoredResponse, Response, Together
 from simc_core.search_grid import Evaluate, Grid, sampled, search_grid
 
 TOGETHER = 64  # loops
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
 QUADRATIC = 1e-9  # after a Newton step this small the next would be below rounding
-STEPS = 60  # of the polishing; four are usual
+ROUNDING = 4e-16
+STEPS = 60  # of the polishing; two or three are usual
 GAIN, PHASE, S_PEAK, T_PEAK = range(4)
 
 
@@ -59,8 +61,7 @@ def search_many(responses: Sequence[FactoredResponse]) -> list[Crossings]:
     return found
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Brackets:
+class _Brackets(NamedTuple):
     """Intervals [low, high] that hold a zero of the function `kind` of loop `owner`; start: a guess at it.
 
     rising: whether the function is negative at low.
@@ -77,16 +78,18 @@ class _Brackets:
 def _search(responses: Sequence[Response], evaluate: Evaluate) -> list[Crossings]:
     grid = search_grid(responses, evaluate)
     values = _values(*grid.samples)
-    found = [_polished(evaluate, brackets) for brackets in (_brackets(grid, values), _hidden(evaluate, grid, values)) if brackets]
-    omega, kind, owner = (np.concatenate(parts) for parts in zip(*found, strict=True))
-    log, _, S, T = sampled(evaluate, omega, owner)
-    arg = from_negative(log)
-    true = (kind != PHASE) | ((np.abs(arg) < 1e-6) & (np.abs(log.real) < 100))  # not the jump at an undamped root
-    order = np.lexsort((omega, kind, owner))
-    order = order[true[order]]
-    what = np.array([arg, np.exp(np.minimum(log.real, 700.0)), np.abs(S), np.abs(T)])[kind[order], order]
-    omega = omega[order]
-    edges = np.searchsorted(4 * owner[order] + kind[order], np.arange(4 * len(responses) + 1)).tolist()
+    brackets = _brackets(grid, values)
+    hidden = _hidden(evaluate, grid, values)
+    if hidden:
+        brackets = _Brackets(*(np.concatenate(pair) for pair in zip(brackets, hidden, strict=True)))
+    kind, owner = brackets.kind, brackets.owner
+    omega, what = _polished(evaluate, brackets)
+    key = 4 * owner + kind
+    false = (kind == PHASE) & ((np.abs(what[GAIN]) > 1e-6) | (np.abs(np.log(what[PHASE])) > 100))
+    order = np.lexsort((omega, key))
+    order = order[~false[order]]  # without the jumps of the phase at undamped roots
+    omega, what, key = omega[order], what[kind[order], order], key[order]
+    edges = key.searchsorted(np.arange(4 * len(responses) + 1)).tolist()
     parts = [(omega[i:j], what[i:j]) for i, j in zip(edges[:-1], edges[1:], strict=True)]
     return [
         Crossings(*parts[4 * i], *parts[4 * i + 1], *parts[4 * i + 2], *parts[4 * i + 3], envelope)
@@ -99,7 +102,7 @@ def from_negative(log: np.ndarray) -> np.ndarray:
     return math.pi - (-log.imag) % (2 * math.pi)
 
 
-def _values(log, first, S, T) -> np.ndarray:
+def _values(log, first, _, S, T) -> np.ndarray:
     """The four functions whose zeros are sought, shape (4, n)."""
     return np.array([log.real, from_negative(log), -(T * first).real, (S * first).real])
 
@@ -120,8 +123,19 @@ def _brackets(grid: Grid, values: np.ndarray) -> _Brackets:
     holds[GAIN] &= grid.inside
     kind, at = np.nonzero(holds)
     low, high, below, above = grid.omega[at], grid.omega[at + 1], left[kind, at], right[kind, at]
-    start = low + (high - low) * (below / (below - above))
-    return _Brackets(low, high, kind, grid.owner[at], start, below < 0)
+    slopes = _slopes(*grid.samples[:, np.concatenate([at, at + 1])]).reshape(4, 2, -1)[kind, :, np.arange(kind.size)].T
+    return _Brackets(low, high, kind, grid.owner[at], _guess(low, high, below, above, *slopes), below < 0)
+
+
+def _guess(low, high, below, above, slope_low, slope_high) -> np.ndarray:
+    """Where the function is zero: omega as the cubic of it that Hermite's data at both ends give, else by the secant."""
+    width, part = high - low, below / (below - above)
+    rest = 1 - part
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = rest * ((above - below) / slope_low - width) - part * ((above - below) / slope_high - width)
+    secant = low + width * part
+    cubic = secant + part * rest * bend
+    return np.where((cubic > low) & (cubic < high), cubic, secant)
 
 
 def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | None:
@@ -140,9 +154,9 @@ def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | N
 
     def slope(omega):
         _, first, second = evaluate(omega, owner)
-        return np.array([first.real, first.imag])[kind, pick], np.array([second.real, second.imag])[kind, pick]
+        return np.array([first.real, first.imag])[kind, pick], np.array([second.real, second.imag])[kind, pick], None
 
-    middle = _newton(slope, low, high, np.sqrt(low * high), slopes[kind, at] < 0)
+    middle, *_ = _newton(slope, low, high, np.sqrt(low * high), slopes[kind, at] < 0)
     inner = _values(*sampled(evaluate, middle, owner))[kind, pick]
     i = np.flatnonzero(inner * outer < 0)
     if not i.size:
@@ -152,31 +166,39 @@ def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | N
     return _Brackets(*ends, np.tile(kind, 2), np.tile(owner, 2), np.sqrt(ends[0] * ends[1]), np.concatenate([rising, ~rising]))
 
 
-def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """omega of the zeros to full precision, kind, owner."""
+def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray]:
+    """omega of the zeros to full precision, (n,), and arg(-L), |L|, |S|, |T| there, (4, n)."""
     kind, owner, pick = brackets.kind, brackets.owner, np.arange(brackets.kind.size)
+    if not kind.size:
+        return brackets.low, np.zeros((4, 0))
 
     def function(omega):
-        log, first, second = evaluate(omega, owner)
-        S, T = sensitivities(log)
-        return _values(log, first, S, T)[kind, pick], _slopes(log, first, second, S, T)[kind, pick]
+        samples = sampled(evaluate, omega, owner)
+        return _values(*samples)[kind, pick], _slopes(*samples)[kind, pick], samples
 
-    omega = _newton(function, brackets.low, brackets.high, brackets.start, brackets.rising) if kind.size else brackets.low
-    return omega, kind, owner
+    omega, step, (log, first, _, S, T) = _newton(function, brackets.low, brackets.high, brackets.start, brackets.rising)
+    log = log + step * first  # the samples are those before the last step; peaks do not feel it
+    return omega, np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
 
 
-def _newton(function: Callable, low, high, omega, rising) -> np.ndarray:
-    """Zeros inside the brackets: Newton from omega, or bisection where Newton would leave the bracket."""
+def _newton(function: Callable, low, high, omega, rising):
+    """Zeros inside the brackets: Newton from omega, or bisection where Newton would leave the bracket.
+
+    function: value, slope, and anything else. Returns omega, the last step to it, and that else as it was before.
+    """
+    previous = np.zeros_like(omega)
     for _ in range(STEPS):
-        value, slope = function(omega)
+        value, slope, samples = function(omega)
         below = (value < 0) == rising
         low, high = np.where(below, omega, low), np.where(below, high, omega)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            newton = omega - value / slope
+        newton = omega - value / np.where(slope == 0, np.nan, slope)
         inside = (newton >= low) & (newton <= high)
         following = np.where(value == 0, omega, np.where(inside, newton, np.sqrt(low * high)))
-        settled = (inside & (np.abs(following - omega) <= QUADRATIC * omega)) | (high - low <= 4e-16 * omega)
-        omega = following
-        if np.all(settled | (value == 0)):
+        step = following - omega
+        size = np.abs(step)
+        ahead = size**3 <= ROUNDING * omega * previous**2  # errors square: the next step would be step^3/previous^2
+        settled = (inside & (ahead | (size <= QUADRATIC * omega))) | (high - low <= ROUNDING * omega) | (value == 0)
+        omega, previous = following, np.where(inside, size, 0.0)
+        if settled.all():
             break
-    return omega
+    return omega, step, samples

@@ -27,6 +27,7 @@ from simc_core.factors import Factored, degree, product, roots_of, rows_of, with
 Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
 
 ONE = (0.0, 0.0, 1.0)
+LARGEST = 600.0  # of log|L| where S and T are wanted
 
 
 class Asymptote(NamedTuple):
@@ -102,7 +103,9 @@ class Together:
         log = np.empty(omega.size, dtype=complex)
         log.real = self.signs @ np.log(np.abs(q)) + size
         log.imag = self.signs @ np.angle(q) + (turn - theta * omega)
-        return log, 1j * (self.signs @ slope - theta), self.signs @ bend
+        first = self.signs @ slope
+        first -= theta
+        return log, 1j * first, self.signs @ bend
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -177,12 +180,12 @@ class Series:
 
 
 def sensitivities(log: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """S and T from log L, without overflow and without cancellation for large or small |L|."""
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        big = log.real > 0
-        x = np.exp(np.where(big, -log, log))
-        inverse = 1 / (1 + x)
-        return np.where(big, x * inverse, inverse), np.where(big, inverse, x * inverse)
+    """S and T from log L, also where L overflows."""
+    if np.max(log.real, initial=0.0) > LARGEST:
+        log = np.minimum(log.real, LARGEST) + 1j * log.imag
+    L = np.exp(log)
+    S = 1 / (1 + L)
+    return S, L * S
 
 
 def _product(one: Asymptote, other: Asymptote) -> Asymptote:

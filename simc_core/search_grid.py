@@ -31,7 +31,7 @@ Evaluate = Callable[[np.ndarray, np.ndarray], Logs]  # log L and its derivatives
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Grid:
-    """omega, owner: shape (N,), omega ascending for each loop.   samples: rows log L, its derivative, S and T, (4, N).
+    """omega, owner: shape (N,), omega ascending for each loop.   samples: rows log L, its two derivatives, S and T, (5, N).
 
     resolved: shape (N-1,), False where the phase of the dead time may turn unseen, or between two loops.
     inside: False only between two loops.   envelopes: by loop, bounds of |S| and |T| beyond the grid, 0 if it
@@ -49,71 +49,59 @@ class Grid:
 def search_grid(responses: Sequence[Response], evaluate: Evaluate) -> Grid:
     """The grid of the module docstring for one or several loops."""
     omega, owner, ends = _base_grid(responses)
-    samples = sampled(evaluate, omega, owner)
     thetas = np.array([response.theta for response in responses])
     envelopes = [(0.0, 0.0)] * len(responses)
-    inside = owner[1:] == owner[:-1]
     if thetas.any():
-        level, last = _level(thetas, omega, owner, ends, samples)
-        size, of = samples[0].real, owner[1:]
-        matters = inside & ((np.maximum(size[:-1], size[1:]) >= level[of]) | (omega[1:] <= last[of]))
-        pieces = np.ceil((omega[1:] - omega[:-1]) * thetas[of] / PHASE_STEP)
-        pieces[~matters] = 1
-        pieces = np.maximum(pieces, 1)
+        size, level, last = _level(thetas, omega, owner, ends, evaluate(omega, owner)[0])
+        of = owner[1:]
+        matters = (np.maximum(size[:-1], size[1:]) >= level[of]) | (omega[1:] <= last[of])
+        pieces = np.where(matters, np.ceil((omega[1:] - omega[:-1]) * thetas[of] / PHASE_STEP), 1)
+        pieces = np.maximum(pieces, 1)  # at least, and between two loops
         total = pieces.cumsum()
-        within = total - np.concatenate([[0.0], total[ends[:-1]]])[of] <= MOST_NODES
+        within = total <= MOST_NODES + np.concatenate([[0], total[ends[:-1]]])[of]
         if not within.all():
-            beyond = ~within & matters
-            for loop in np.unique(of[beyond]):
-                x = math.exp(min(float(np.max(size[1:][beyond & (of == loop)])), -1e-15))
-                envelopes[loop] = 1 / (1 - x), x / (1 - x)
+            envelopes = _envelopes(len(responses), of, size[1:], matters & ~within)
             pieces[~within] = 1
-        omega, owner, samples = _refined(evaluate, omega, owner, samples, pieces.astype(int))
-        inside = owner[1:] == owner[:-1]
+        omega, owner = _refined(omega, owner, pieces.astype(int))
+    inside = owner[1:] == owner[:-1]
     resolved = inside & (thetas[owner[1:]] * (omega[1:] - omega[:-1]) <= 1.01 * PHASE_STEP)
-    return Grid(omega, owner, samples, resolved, inside, envelopes)
+    return Grid(omega, owner, sampled(evaluate, omega, owner), resolved, inside, envelopes)
 
 
 def sampled(evaluate: Evaluate, omega: np.ndarray, owner: np.ndarray) -> np.ndarray:
-    """Rows log L, its derivative, S, T."""
-    log, first, _ = evaluate(omega, owner)
-    return np.array([log, first, *sensitivities(log)])
+    """Rows log L, its first and second derivative, S, T."""
+    logs = evaluate(omega, owner)
+    return np.array([*logs, *sensitivities(logs[0])])
 
 
-def _level(thetas, omega, owner, ends, samples) -> tuple[np.ndarray, np.ndarray]:
-    """For each loop: log|L| below which nothing matters, and the frequency up to which everything does.
+def _level(thetas, omega, owner, ends, log) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """log|L|; and for each loop the level of it below which nothing matters, and the frequency up to which all does.
 
     Beyond the last gain crossing the phase falls by 2 pi within two turns of the dead time: there is a phase crossing.
     """
     starts = np.concatenate([[0], ends[:-1] + 1])
-    size = samples[0].real
-    Ms, Mt = np.maximum.reduceat(np.abs(samples[2:]), starts, axis=1)
+    size = log.real
+    Ms, Mt = (np.maximum.reduceat(np.abs(of), starts) for of in sensitivities(log))
     start = np.maximum.reduceat(omega * (size >= 0), starts)
     last = start + 4 * math.pi / np.maximum(thetas, 1e-300)
     after = starts + np.add.reduceat(omega < last[owner], starts, dtype=int)
-    at_last = size[np.minimum(after, ends)]
     level = np.minimum(np.log1p(-1 / np.maximum(Ms, 1 + 1e-6)), -np.log1p(1 / Mt))
-    return np.minimum(level, at_last), last
+    return size, np.minimum(level, size[np.minimum(after, ends)]), last
 
 
-def _refined(evaluate: Evaluate, omega, owner, samples, pieces: np.ndarray):
+def _envelopes(n: int, owner: np.ndarray, size: np.ndarray, beyond: np.ndarray) -> list[tuple[float, float]]:
+    """1/(1 - x) and x/(1 - x), x the largest |L| of each loop where the grid is too coarse; size: log|L|."""
+    largest = np.full(n, -np.inf)
+    np.maximum.at(largest, owner[beyond], size[beyond])
+    x = np.exp(np.minimum(largest, -1e-15))
+    return list(zip((1 / (1 - x) * (x > 0)).tolist(), (x / (1 - x)).tolist(), strict=True))
+
+
+def _refined(omega: np.ndarray, owner: np.ndarray, pieces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Interval i in pieces[i] equal parts."""
-    at = np.flatnonzero(pieces > 1)
-    if not at.size:
-        return omega, owner, samples
-    interval, place = ragged(pieces[at] - 1)
-    interval = at[interval]
-    fine = omega[interval] + (omega[interval + 1] - omega[interval]) * ((place + 1) / pieces[interval])
-    new = np.ones(omega.size + fine.size, dtype=bool)
-    new[np.concatenate([[0], pieces.cumsum()])] = False
-
-    def merged(old: np.ndarray, more: np.ndarray) -> np.ndarray:
-        both = np.empty((*old.shape[:-1], new.size), old.dtype)
-        both[..., ~new], both[..., new] = old, more
-        return both
-
-    own = owner[interval]
-    return merged(omega, fine), merged(owner, own), merged(samples, sampled(evaluate, fine, own))
+    interval, place = ragged(pieces)
+    fine = omega[interval] + ((omega[1:] - omega[:-1]) / pieces)[interval] * place
+    return np.append(fine, omega[-1]), np.append(owner[interval], owner[-1])
 
 
 def _base_grid(responses: Sequence[Response]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
