@@ -27,7 +27,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.factors import Factored, Row, product, roots_of, rows_of
+from simc_core.factors import Factored, Row, product, rows_of
 
 WELL_DAMPED = math.sqrt(2.0)  # b >= sqrt(2 a c): |a s^2 + b s + c| grows with omega all along the axis
 
@@ -37,6 +37,7 @@ class Characteristic:
     """f of the module docstring. rows: M factors (a, b, c).   exponents: K rows of M.   gains, thetas: K each.
 
     At infinity P_k e^{theta_k s} ~ leading_k s^(zeros - poles), the pair of degrees_k.
+    limit: what the terms without dead time tend to at infinity.   delayed: sum of |limit| of the others.
     """
 
     rows: tuple[Row, ...]
@@ -45,34 +46,15 @@ class Characteristic:
     thetas: tuple[float, ...]
     leading: tuple[float, ...]
     degrees: tuple[tuple[int, int], ...]
-
-    @property
-    def limits(self) -> list[float]:
-        """What P_k e^{theta_k s} tends to at infinity."""
-        return [c if zeros == poles else 0.0 for c, (zeros, poles) in zip(self.leading, self.degrees, strict=True)]
-
-    @property
-    def limit(self) -> float:
-        """What the terms without dead time tend to at infinity."""
-        return math.fsum(limit for limit, theta in zip(self.limits, self.thetas, strict=True) if theta == 0)
-
-    @property
-    def delayed(self) -> float:
-        """Sum of |limit| of the others."""
-        return math.fsum(abs(limit) for limit, theta in zip(self.limits, self.thetas, strict=True) if theta > 0)
+    limit: float
+    delayed: float
 
     @property
     def neutral(self) -> float:
         """|L(inf)| of the delayed part: the loop is neutral where it is > 0, and hopeless where it is > 1."""
-        delayed, limit = self.delayed, self.limit
-        if delayed == 0:
+        if self.delayed == 0:
             return 0.0
-        return delayed / abs(limit) if limit else math.inf
-
-    @property
-    def corners(self) -> list[list[float]]:
-        """|root| of each factor, nonzero ones."""
-        return [[abs(root) for root in roots_of([row]) if root] for row in self.rows]
+        return self.delayed / abs(self.limit) if self.limit else math.inf
 
 
 def characteristic(terms: Sequence[Factored]) -> Characteristic:
@@ -81,20 +63,31 @@ def characteristic(terms: Sequence[Factored]) -> Characteristic:
     common = _union(bottoms)
     corner = _corner(terms, tops, bottoms, common)
     starred = [_starred(row, corner) for row in common]
-    products = [_Product(1.0, 0.0, common, starred)]
-    for term, top, bottom in zip(terms, tops, bottoms, strict=True):
-        products.append(_Product(term.gain, term.theta, top + _difference(common, bottom), starred))
-    excess = max(0, *(zeros - poles for zeros, poles in (each.degrees for each in products)))
-    for each in products:  # over s/corner + 1, until none of them grows at infinity
-        each.divide([(0.0, 1 / corner, 1.0)] * excess)
-    rows = tuple(dict.fromkeys(row for each in products for row, power in each.powers.items() if power))
+    products = [_powers(common, starred)]
+    products += [
+        _powers(top + _difference(common, bottom), starred) for top, bottom in zip(tops, bottoms, strict=True)
+    ]
+    degrees = [_degrees(powers) for powers in products]
+    excess = max(zeros - poles for zeros, poles in degrees)
+    if excess > 0:  # over s/corner + 1, until none of them grows at infinity
+        extra = (0.0, 1 / corner, 1.0)
+        for powers in products:
+            powers[extra] = powers.get(extra, 0) - excess
+        degrees = [_degrees(powers) for powers in products]
+    gains = (1.0, *(term.gain for term in terms))
+    thetas = (0.0, *(term.theta for term in terms))
+    leading = tuple(_leading(gain, powers) for gain, powers in zip(gains, products, strict=True))
+    flat = [(c, theta) for c, theta, (zeros, poles) in zip(leading, thetas, degrees, strict=True) if zeros == poles]
+    rows = tuple(dict.fromkeys(row for powers in products for row, power in powers.items() if power))
     return Characteristic(
         rows,
-        tuple(tuple(each.powers.get(row, 0) for row in rows) for each in products),
-        tuple(each.gain for each in products),
-        tuple(each.theta for each in products),
-        tuple(each.leading for each in products),
-        tuple(each.degrees for each in products),
+        tuple([tuple([powers.get(row, 0) for row in rows]) for powers in products]),
+        gains,
+        thetas,
+        leading,
+        tuple(degrees),
+        math.fsum(c for c, theta in flat if theta == 0),
+        math.fsum(abs(c) for c, theta in flat if theta > 0),
     )
 
 
@@ -104,35 +97,38 @@ def shifted(term: Factored, sigma: float) -> Factored:
     return Factored(term.gain * math.exp(-term.theta * sigma), term.num @ move, term.den @ move, term.theta)
 
 
-class _Product:
-    """One P_k while it is put together. powers: exponent by factor."""
+def _powers(top: Iterable[Row], bottom: Iterable[Row]) -> dict[Row, int]:
+    """Exponent of each factor of a product over another."""
+    powers: dict[Row, int] = {}
+    for row in top:
+        powers[row] = powers.get(row, 0) + 1
+    for row in bottom:
+        powers[row] = powers.get(row, 0) - 1
+    return powers
 
-    def __init__(self, gain: float, theta: float, top: Iterable[Row], bottom: Iterable[Row]):
-        self.gain, self.theta, self.powers = gain, theta, dict[Row, int]()
-        for row in top:
-            self.powers[row] = self.powers.get(row, 0) + 1
-        self.divide(bottom)
 
-    def divide(self, rows: Iterable[Row]) -> None:
-        for row in rows:
-            self.powers[row] = self.powers.get(row, 0) - 1
+def _degrees(powers: dict[Row, int]) -> tuple[int, int]:
+    """Of numerator and denominator."""
+    above = below = 0
+    for (a, b, _), power in powers.items():
+        order = 2 if a else 1 if b else 0
+        if power > 0:
+            above += power * order
+        else:
+            below -= power * order
+    return above, below
 
-    @property
-    def degrees(self) -> tuple[int, int]:
-        """Of numerator and denominator."""
-        each = [(power, 2 if a else 1 if b else 0) for (a, b, _), power in self.powers.items()]
-        return sum(p * order for p, order in each if p > 0), sum(-p * order for p, order in each if p < 0)
 
-    @property
-    def leading(self) -> float:
-        """c of P ~ c s^n e^{-theta s} at infinity."""
-        coefficients = [(power, a or b or c) for (a, b, c), power in self.powers.items()]
-        top = [value for power, value in coefficients for _ in range(power)]
-        return product(self.gain, top, [value for power, value in coefficients for _ in range(-power)])
+def _leading(gain: float, powers: dict[Row, int]) -> float:
+    """c of P ~ c s^n e^{-theta s} at infinity."""
+    top = [a or b or c for (a, b, c), power in powers.items() for _ in range(power)]
+    return product(gain, top, [a or b or c for (a, b, c), power in powers.items() for _ in range(-power)])
 
 
 def _union(lists: Sequence[list[Row]]) -> list[Row]:
     """Smallest list that holds each of `lists`."""
+    if len(lists) == 1:
+        return lists[0]
     found: Counter[Row] = Counter()
     for rows in lists:
         found |= Counter(rows)

@@ -114,6 +114,9 @@ def roots_of(rows: Iterable[Row]) -> list[complex]:
 
 def product(gain: float, top: Sequence[float], bottom: Sequence[float]) -> float:
     """gain prod(top)/prod(bottom) of nonzero numbers; 1e304 or 1e-304 where it would be beyond these."""
+    above, below = math.prod(top, start=gain), math.prod(bottom)
+    if 1e-150 < abs(above) < 1e150 and 1e-150 < abs(below) < 1e150:
+        return above / below
     log = math.log(abs(gain)) + math.fsum(math.log(abs(x)) for x in top) - math.fsum(math.log(abs(x)) for x in bottom)
     negative = sum(x < 0 for x in (gain, *top, *bottom)) % 2
     return math.exp(min(max(log, -700.0), 700.0)) * (-1.0 if negative else 1.0)

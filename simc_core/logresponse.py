@@ -17,6 +17,7 @@ loop of a cascade, Ca Ga Tb, or of more nested loops: Series(FactoredResponse(Ca
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple, Protocol
 
 import numpy as np
@@ -65,7 +66,10 @@ class FactoredResponse:
         leading = product(L.gain, [a or b or c for a, b, c in num], [a or b or c for a, b, c in den])
         self.at_infinity = Asymptote(leading, degree(num) - degree(den))
         self.gain, self.num, self.den = L.gain, num, den
-        self._alone = Together([self])
+
+    @cached_property
+    def _alone(self) -> "Together":
+        return Together([self])
 
     def log_derivatives(self, omega: np.ndarray) -> Logs:
         """See Response."""

@@ -51,9 +51,7 @@ NOT_STABLE = Margins(*[math.nan] * 10, stable=False)
 @singledispatch
 def margins(loop: Loop) -> Margins:
     """Margins of a single loop; all nan where it is not stable."""
-    if stability(loop).verdict != "stable":
-        return NOT_STABLE
-    return margins_of(FactoredResponse(loop.L))
+    return margins_many([loop], [stability(loop)])[0]
 
 
 @singledispatch

@@ -18,6 +18,7 @@ import numpy as np
 
 from simc_core.characteristic import Characteristic
 from simc_core.errors import InvalidParameter
+from simc_core.factors import roots_of
 from simc_core.segment_bounds import Family, wrapped
 from simc_core.segments import Nodes, geometric, split
 
@@ -113,22 +114,21 @@ def _first_grid(first: np.ndarray, last: np.ndarray) -> tuple[Nodes, np.ndarray]
 
 def _range(f: Characteristic) -> tuple[float, float]:
     """A frequency below all corners, and one beyond which |f - limit| < |limit|."""
-    corners = f.corners
-    everything = [corner for some in corners for corner in some]
+    corners = [abs(root) for root in roots_of(f.rows) if root]
     delays = [1 / theta for theta in f.thetas if theta]
-    largest = max(everything, default=0.0) or max(delays, default=1.0)
+    largest = max(corners, default=0.0) or max(delays, default=1.0)
     allowed = abs(f.limit) * (1 + f.neutral) / 2
     last = 2 * largest
-    while sum(_tail(f, k, largest, last) for k in range(len(f.gains))) >= allowed:
+    while _tails(f, largest, last) >= allowed:
         last *= 2
-    return 1e-2 * min([last, *delays, *everything]), last
+    return 1e-2 * min([last, *delays, *corners]), last
 
 
-def _tail(f: Characteristic, k: int, largest: float, omega: float) -> float:
-    """Bound of |P_k - its limit| beyond omega; of |P_k| where it is delayed or has none."""
-    zeros, poles = f.degrees[k]
-    growth = zeros * math.log1p(largest / omega) - poles * math.log1p(-largest / omega)
-    spread = math.expm1(min(growth, 700.0))
-    if f.thetas[k] == 0 and zeros == poles:
-        return abs(f.leading[k]) * spread
-    return abs(f.leading[k]) * omega ** (zeros - poles) * (1 + spread)
+def _tails(f: Characteristic, largest: float, omega: float) -> float:
+    """Sum of the bounds of |P_k - its limit| beyond omega; of |P_k| where it is delayed or has none."""
+    up, down, total = math.log1p(largest / omega), -math.log1p(-largest / omega), 0.0
+    for leading, theta, (zeros, poles) in zip(f.leading, f.thetas, f.degrees, strict=True):
+        spread = math.expm1(min(zeros * up + poles * down, 700.0))
+        flat = theta == 0 and zeros == poles
+        total += abs(leading) * (spread if flat else omega ** (zeros - poles) * (1 + spread))
+    return total
