@@ -19,7 +19,7 @@ import numpy as np
 from simc_core.logresponse import LARGEST, FactoredResponse, Response, Together
 from simc_core.search_grid import Evaluate, Grid, sampled, search_grid
 
-TOGETHER = 64  # loops
+TOGETHER = 32  # loops; more do not fit the cache
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
 QUADRATIC = 1e-9  # after a Newton step this small the next would be below rounding
 ROUNDING = 4e-16

@@ -47,7 +47,7 @@ class Response(Protocol):
     """
 
     theta: float
-    roots: np.ndarray
+    roots: list[complex]
     at_zero: Asymptote
     at_infinity: Asymptote
 
@@ -60,7 +60,7 @@ class FactoredResponse:
     def __init__(self, L: Factored):
         num, den, _ = without_common(rows_of(L.num), rows_of(L.den))
         self.theta = L.theta
-        self.roots = np.array([root for root in roots_of(num + den) if root], dtype=complex)
+        self.roots = [root for root in roots_of(num + den) if root]
         origin = sum(c == 0 for *_, c in num) - sum(c == 0 for *_, c in den)
         self.at_zero = Asymptote(product(L.gain, [c or b for _, b, c in num], [c or b for _, b, c in den]), origin)
         leading = product(L.gain, [a or b or c for a, b, c in num], [a or b or c for a, b, c in den])
@@ -96,7 +96,8 @@ class Together:
         """As in Response, of the response owner[i] at omega[i]; with one response owner does not matter."""
         a, b, c, theta, size, turn = self.a, self.b, self.c, self.thetas, self.sizes, self.turns
         if theta.size > 1:
-            a, b, c, theta, size, turn = a[:, owner], b[:, owner], c[:, owner], theta[owner], size[owner], turn[owner]
+            b, c, theta, size, turn = b[:, owner], c[:, owner], theta[owner], size[owner], turn[owner]
+            a = a[:, owner] if self.bends else a
         q = np.empty((len(a), omega.size), dtype=complex)
         q.real, q.imag = c - a * (omega * omega) if self.bends else c, b * omega
         inverse = 1 / q
@@ -125,9 +126,9 @@ class Closed:
         return self.inner.theta
 
     @property
-    def roots(self) -> np.ndarray:
+    def roots(self) -> list[complex]:
         """Roots of L and the poles of T."""
-        return np.concatenate([self.inner.roots, self.poles])
+        return [*self.inner.roots, *self.poles.tolist()]
 
     @property
     def at_zero(self) -> Asymptote:
@@ -163,9 +164,9 @@ class Series:
         return self.one.theta + self.other.theta
 
     @property
-    def roots(self) -> np.ndarray:
+    def roots(self) -> list[complex]:
         """Those of both."""
-        return np.concatenate([self.one.roots, self.other.roots])
+        return [*self.one.roots, *self.other.roots]
 
     @property
     def at_zero(self) -> Asymptote:

@@ -49,11 +49,12 @@ class Grid:
 def search_grid(responses: Sequence[Response], evaluate: Evaluate) -> Grid:
     """The grid of the module docstring for one or several loops."""
     omega, owner, ends = _base_grid(responses)
+    samples = sampled(evaluate, omega, owner)
     thetas = np.array([response.theta for response in responses])
     envelopes = [(0.0, 0.0)] * len(responses)
     if thetas.any():
-        size, level, last = _level(thetas, omega, owner, ends, evaluate(omega, owner)[0])
-        of = owner[1:]
+        size, of = samples[0].real, owner[1:]
+        level, last = _level(thetas, omega, owner, ends, samples)
         matters = (np.maximum(size[:-1], size[1:]) >= level[of]) | (omega[1:] <= last[of])
         pieces = np.where(matters, np.ceil((omega[1:] - omega[:-1]) * thetas[of] / PHASE_STEP), 1)
         pieces = np.maximum(pieces, 1)  # at least, and between two loops
@@ -62,10 +63,10 @@ def search_grid(responses: Sequence[Response], evaluate: Evaluate) -> Grid:
         if not within.all():
             envelopes = _envelopes(len(responses), of, size[1:], matters & ~within)
             pieces[~within] = 1
-        omega, owner = _refined(omega, owner, pieces.astype(int))
+        omega, owner, samples = _refined(evaluate, omega, owner, samples, pieces.astype(int))
     inside = owner[1:] == owner[:-1]
     resolved = inside & (thetas[owner[1:]] * (omega[1:] - omega[:-1]) <= 1.01 * PHASE_STEP)
-    return Grid(omega, owner, sampled(evaluate, omega, owner), resolved, inside, envelopes)
+    return Grid(omega, owner, samples, resolved, inside, envelopes)
 
 
 def sampled(evaluate: Evaluate, omega: np.ndarray, owner: np.ndarray) -> np.ndarray:
@@ -74,19 +75,19 @@ def sampled(evaluate: Evaluate, omega: np.ndarray, owner: np.ndarray) -> np.ndar
     return np.array([*logs, *sensitivities(logs[0])])
 
 
-def _level(thetas, omega, owner, ends, log) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """log|L|; and for each loop the level of it below which nothing matters, and the frequency up to which all does.
+def _level(thetas, omega, owner, ends, samples) -> tuple[np.ndarray, np.ndarray]:
+    """For each loop: log|L| below which nothing matters, and the frequency up to which everything does.
 
     Beyond the last gain crossing the phase falls by 2 pi within two turns of the dead time: there is a phase crossing.
     """
     starts = np.concatenate([[0], ends[:-1] + 1])
-    size = log.real
-    Ms, Mt = (np.maximum.reduceat(np.abs(of), starts) for of in sensitivities(log))
+    size = samples[0].real
+    Ms, Mt = np.maximum.reduceat(np.abs(samples[3:]), starts, axis=1)
     start = np.maximum.reduceat(omega * (size >= 0), starts)
     last = start + 4 * math.pi / np.maximum(thetas, 1e-300)
     after = starts + np.add.reduceat(omega < last[owner], starts, dtype=int)
     level = np.minimum(np.log1p(-1 / np.maximum(Ms, 1 + 1e-6)), -np.log1p(1 / Mt))
-    return size, np.minimum(level, size[np.minimum(after, ends)]), last
+    return np.minimum(level, size[np.minimum(after, ends)]), last
 
 
 def _envelopes(n: int, owner: np.ndarray, size: np.ndarray, beyond: np.ndarray) -> list[tuple[float, float]]:
@@ -97,18 +98,29 @@ def _envelopes(n: int, owner: np.ndarray, size: np.ndarray, beyond: np.ndarray) 
     return list(zip((1 / (1 - x) * (x > 0)).tolist(), (x / (1 - x)).tolist(), strict=True))
 
 
-def _refined(omega: np.ndarray, owner: np.ndarray, pieces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Interval i in pieces[i] equal parts."""
-    interval, place = ragged(pieces)
-    fine = omega[interval] + ((omega[1:] - omega[:-1]) / pieces)[interval] * place
-    return np.append(fine, omega[-1]), np.append(owner[interval], owner[-1])
+def _refined(evaluate: Evaluate, omega, owner, samples, pieces: np.ndarray):
+    """Interval i in pieces[i] equal parts; omega, owner and samples of all nodes."""
+    at = np.flatnonzero(pieces > 1)
+    interval, place = ragged(pieces[at] - 1)
+    interval = at[interval]
+    fine = omega[interval] + (omega[interval + 1] - omega[interval]) * ((place + 1) / pieces[interval])
+    begins = np.concatenate([[0], pieces.cumsum()])  # the places of the old nodes
+    order = np.empty(omega.size + fine.size, dtype=int)
+    order[begins] = np.arange(omega.size)
+    order[begins[interval] + place + 1] = np.arange(omega.size, order.size)
+    new = sampled(evaluate, fine, owner[interval])
+    return (
+        np.concatenate([omega, fine])[order],
+        np.concatenate([owner, owner[interval]])[order],
+        np.concatenate([samples, new], axis=1).take(order, axis=1),
+    )
 
 
 def _base_grid(responses: Sequence[Response]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Two decades beyond all corners at either end, clusters where the damping is light; omega, owner, last indices."""
     ranges, clusters = [], []
     for response in responses:
-        roots = response.roots.tolist()
+        roots = response.roots
         corners = [abs(root) for root in roots] + [abs(g) ** (-1 / n) for g, n in (response.at_zero, response.at_infinity) if n]
         if response.theta:
             corners += [1 / response.theta, 4 * math.pi / response.theta]
