@@ -64,9 +64,7 @@ def characteristic(terms: Sequence[Factored]) -> Characteristic:
     corner = _corner(terms, tops, bottoms, common)
     starred = [_starred(row, corner) for row in common]
     products = [_powers(common, starred)]
-    products += [
-        _powers(top + _difference(common, bottom), starred) for top, bottom in zip(tops, bottoms, strict=True)
-    ]
+    products += [_powers(top + _difference(common, bottom), starred) for top, bottom in zip(tops, bottoms, strict=True)]
     degrees = [_degrees(powers) for powers in products]
     excess = max(zeros - poles for zeros, poles in degrees)
     if excess > 0:  # over s/corner + 1, until none of them grows at infinity

@@ -12,6 +12,7 @@ asked for, are then polished by bracketed Newton steps with the derivatives in c
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +24,7 @@ TOGETHER = 32  # loops; more do not fit the cache
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
 QUADRATIC = 1e-9  # after a Newton step this small the next would be below rounding
 ROUNDING = 4e-16
+HUGE = 1e43
 STEPS = 60  # of the polishing; two or three are usual
 GAIN, PHASE, S_PEAK, T_PEAK = range(4)
 
@@ -85,12 +87,12 @@ def _search(responses: Sequence[Response], evaluate: Evaluate) -> list[Crossings
     kind, owner = brackets.kind, brackets.owner
     omega, what = _polished(evaluate, brackets)
     key = 4 * owner + kind
-    false = (kind == PHASE) & ((np.abs(what[GAIN]) > 1e-6) | (np.abs(np.log(what[PHASE])) > 100))
+    jump = (np.abs(what[GAIN]) > 1e-6) | (what[PHASE] < 1 / HUGE) | (what[PHASE] > HUGE)  # at an undamped root
     order = np.lexsort((omega, key))
-    order = order[~false[order]]  # without the jumps of the phase at undamped roots
+    order = order[~(jump & (kind == PHASE))[order]]
     omega, what, key = omega[order], what[kind[order], order], key[order]
     edges = key.searchsorted(np.arange(4 * len(responses) + 1)).tolist()
-    parts = [(omega[i:j], what[i:j]) for i, j in zip(edges[:-1], edges[1:], strict=True)]
+    parts = [(omega[i:j], what[i:j]) for i, j in pairwise(edges)]
     return [
         Crossings(*parts[4 * i], *parts[4 * i + 1], *parts[4 * i + 2], *parts[4 * i + 3], envelope)
         for i, envelope in enumerate(grid.envelopes)
@@ -128,7 +130,7 @@ def _brackets(grid: Grid, values: np.ndarray) -> _Brackets:
 
 
 def _guess(low, high, below, above, slope_low, slope_high) -> np.ndarray:
-    """Where the function is zero: omega as the cubic of it that Hermite's data at both ends give, else by the secant."""
+    """Where the function is zero: omega as its cubic from values and slopes at both ends, else by the secant."""
     width, part = high - low, below / (below - above)
     rest = 1 - part
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -141,10 +143,9 @@ def _guess(low, high, below, above, slope_low, slope_high) -> np.ndarray:
 def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | None:
     """Left and right of the extrema of log|L| or arg(-L) between two nodes, where these are beyond zero."""
     first = grid.samples[1]
-    values, slopes = values[:2], np.array([first.real, first.imag])
-    trend = values * slopes
-    reach = np.abs(values[:, :-1]) < np.abs(slopes[:, :-1]) * (step := grid.omega[1:] - grid.omega[:-1])
-    reach |= np.abs(values[:, 1:]) < np.abs(slopes[:, 1:]) * step
+    values, slopes, step = values[:2], np.array([first.real, first.imag]), grid.omega[1:] - grid.omega[:-1]
+    trend, size, change = values * slopes, np.abs(values), np.abs(slopes)
+    reach = (size[:, :-1] < change[:, :-1] * step) | (size[:, 1:] < change[:, 1:] * step)
     turns = (trend[:, :-1] < 0) & (trend[:, 1:] > 0) & (values[:, :-1] * values[:, 1:] > 0) & reach & grid.inside
     kind, at = np.nonzero(turns)
     if not kind.size:
@@ -163,7 +164,9 @@ def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | N
         return None
     low, middle, high, kind, owner, rising = low[i], middle[i], high[i], kind[i], owner[i], outer[i] < 0
     ends = np.concatenate([low, middle]), np.concatenate([middle, high])
-    return _Brackets(*ends, np.tile(kind, 2), np.tile(owner, 2), np.sqrt(ends[0] * ends[1]), np.concatenate([rising, ~rising]))
+    return _Brackets(
+        *ends, np.tile(kind, 2), np.tile(owner, 2), np.sqrt(ends[0] * ends[1]), np.concatenate([rising, ~rising])
+    )
 
 
 def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray]:
@@ -177,8 +180,9 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
         return _values(*samples)[kind, pick], _slopes(*samples)[kind, pick], samples
 
     omega, step, (log, first, _, S, T) = _newton(function, brackets.low, brackets.high, brackets.start, brackets.rising)
-    log = log + step * first  # the samples are those before the last step; peaks do not feel it
-    return omega, np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
+    log = log + step * first  # the samples are those before the last step; peaks feel half of it
+    S_peak, T_peak = np.abs(S) * np.exp(-step / 2 * (T * first).real), np.abs(T) * np.exp(step / 2 * (S * first).real)
+    return omega, np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), S_peak, T_peak])
 
 
 def _newton(function: Callable, low, high, omega, rising):

@@ -24,7 +24,6 @@ import numpy as np
 
 from simc_core.factors import Factored, degree, product, roots_of, rows_of, without_common
 
-
 Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
 
 ONE = (0.0, 0.0, 1.0)
@@ -82,9 +81,7 @@ class Together:
     def __init__(self, responses: Sequence[FactoredResponse]):
         top = max(len(response.num) for response in responses)
         bottom = max(len(response.den) for response in responses)
-        rows = [
-            [*r.num, *[ONE] * (top - len(r.num)), *r.den, *[ONE] * (bottom - len(r.den))] for r in responses
-        ]
+        rows = [[*r.num, *[ONE] * (top - len(r.num)), *r.den, *[ONE] * (bottom - len(r.den))] for r in responses]
         self.a, self.b, self.c = np.ascontiguousarray(np.array(rows).reshape(len(rows), -1, 3).T)  # (M, n) each
         self.signs = np.array([1.0] * top + [-1.0] * bottom)
         self.bends = self.a.any()

@@ -31,7 +31,7 @@ Evaluate = Callable[[np.ndarray, np.ndarray], Logs]  # log L and its derivatives
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Grid:
-    """omega, owner: shape (N,), omega ascending for each loop.   samples: rows log L, its two derivatives, S and T, (5, N).
+    """omega, owner: shape (N,), omega ascending for each loop.   samples: log L, its two derivatives, S, T, (5, N).
 
     resolved: shape (N-1,), False where the phase of the dead time may turn unseen, or between two loops.
     inside: False only between two loops.   envelopes: by loop, bounds of |S| and |T| beyond the grid, 0 if it
@@ -120,12 +120,12 @@ def _base_grid(responses: Sequence[Response]) -> tuple[np.ndarray, np.ndarray, n
     """Two decades beyond all corners at either end, clusters where the damping is light; omega, owner, last indices."""
     ranges, clusters = [], []
     for response in responses:
-        roots = response.roots
-        corners = [abs(root) for root in roots] + [abs(g) ** (-1 / n) for g, n in (response.at_zero, response.at_infinity) if n]
+        corners = [abs(root) for root in response.roots]
+        corners += [abs(gain) ** (-1 / power) for gain, power in (response.at_zero, response.at_infinity) if power]
         if response.theta:
             corners += [1 / response.theta, 4 * math.pi / response.theta]
         ranges.append((1e-2 * min(corners, default=1.0), 1e2 * max(corners, default=1.0)))
-        clusters.append([root for root in roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)])
+        clusters.append([root for root in response.roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)])
     ranges = np.array(ranges)
     omega, owner, ends = geometric(ranges[:, 0], ranges[:, 1], GRID_PER_DECADE)
     if any(clusters):

@@ -1,4 +1,4 @@
-"""f = sum_k P_k of many loops on segments [a, b] of the imaginary axis: the change of its argument, where it is certain.
+"""f = sum_k P_k of many loops on segments [a, b] of the imaginary axis: the change of its argument, where certain.
 
     short       K (b - a) < |f(a)| + |f(b)|, K a bound of |f'| on the segment: a curve that short cannot go round the
                 origin between its ends, so arg f(b)/f(a) in (-pi, pi] is its change of argument;
@@ -104,7 +104,7 @@ class Family:
         low[self.quadratic] = np.where(inside, smallest, low[self.quadratic])
 
     def _lost(self, real: np.ndarray, imag: np.ndarray, logs: np.ndarray) -> np.ndarray:
-        """log of what |q| would be without the cancellation in c - a omega^2, over |q|: rounding errors grow by that."""
+        """log of |q| without the cancellation in c - a omega^2, over |q|: rounding errors grow by that."""
         return 0.5 * np.log(real * real + imag * imag + SMALLEST**2) - logs
 
 

@@ -14,7 +14,7 @@ SPLIT_TOGETHER = 3000  # segments; their nodes make one row
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Nodes:
-    """omega, owner: shape (N,); owner is the number of the loop.   live: shape (N-1,), whether neighbours bound a segment."""
+    """omega, owner: shape (N,); owner is the number of the loop.   live: (N-1,), whether neighbours bound a segment."""
 
     omega: np.ndarray
     owner: np.ndarray
@@ -46,7 +46,7 @@ def ragged(counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def split(nodes: Nodes, going: np.ndarray, excess: np.ndarray) -> list[Nodes]:
-    """The segments `going`, each in ceil(excess) parts, 2 to MOST_PIECES; geometric where it spans more than a factor 2."""
+    """The segments `going`, each in ceil(excess) parts, 2 to MOST_PIECES; geometric where they span a factor > 2."""
     at = np.flatnonzero(going)
     parts = [at[i : i + SPLIT_TOGETHER] for i in range(0, at.size, SPLIT_TOGETHER)]
     return [_split(nodes, part, excess[part]) for part in parts]

@@ -26,6 +26,7 @@ from simc_core.winding import winding, windings
 
 SAME = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
+MOST_TURNS = 1e3  # omega theta up to which a zero on the axis is believed to be the only one near
 
 Verdict = Literal["stable", "unstable", "marginal"]
 
@@ -99,10 +100,19 @@ def _at_infinity(f: Characteristic) -> Stability | None:
 
 
 def _beside(terms: Sequence[Factored], touches: float, neutral: float) -> Stability:
-    """Verdict on a loop with zeros on the axis: those to the right of them are counted on a contour beside it."""
+    """Verdict on a loop with zeros on the axis: those to the right of them are counted on a contour beside it.
+
+    Raises InvalidParameter where the dead time turns so often up to there that zeros crowd about the axis.
+    """
+    turns = touches * max((term.theta for term in terms), default=0.0)
     sigma = ASIDE * (touches or _slowest(terms))
-    zeros = winding(characteristic([shifted(term, sigma) for term in terms])).zeros
-    return Stability("unstable", zeros, neutral) if zeros else Stability("marginal", 0, neutral)
+    found = winding(characteristic([shifted(term, sigma) for term in terms])) if turns <= MOST_TURNS else None
+    if found is None or found.zeros is None:
+        raise InvalidParameter(
+            f"omega theta of poles on the imaginary axis must be <= {MOST_TURNS:g}, got {turns:g} (|L(inf)| = "
+            f"{neutral:.12g}): the poles beside them cannot be told from these in double precision"
+        )
+    return Stability("unstable", found.zeros, neutral) if found.zeros else Stability("marginal", 0, neutral)
 
 
 def _slowest(terms: Sequence[Factored]) -> float:

@@ -59,7 +59,7 @@ class Table:
 
 @lru_cache(maxsize=64)
 def table(exponents: tuple[tuple[int, ...], ...], first_order: tuple[bool, ...]) -> Table:
-    """exponents: K rows of M.   first_order: which of the M factors are of degree 1. Only this, no number of the loop."""
+    """exponents: K rows of M.   first_order: which of the M factors are of degree 1. No number of the loop is in it."""
     e = np.array(exponents, dtype=float).reshape(len(exponents), len(first_order))
     size = np.abs(e)
     return Table(e, np.maximum(e, 0), np.maximum(-e, 0), size, size.sum(1, keepdims=True), _ratios(e, first_order))
