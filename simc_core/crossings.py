@@ -155,9 +155,9 @@ def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | N
 
     def slope(omega):
         _, first, second = evaluate(omega, owner)
-        return np.array([first.real, first.imag])[kind, pick], np.array([second.real, second.imag])[kind, pick], None
+        return np.array([first.real, first.imag])[kind, pick], np.array([second.real, second.imag])[kind, pick]
 
-    middle, *_ = _newton(slope, low, high, np.sqrt(low * high), slopes[kind, at] < 0)
+    middle = _newton(slope, low, high, np.sqrt(low * high), slopes[kind, at] < 0)
     inner = _values(*sampled(evaluate, middle, owner))[kind, pick]
     i = np.flatnonzero(inner * outer < 0)
     if not i.size:
@@ -177,32 +177,30 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
 
     def function(omega):
         samples = sampled(evaluate, omega, owner)
-        return _values(*samples)[kind, pick], _slopes(*samples)[kind, pick], samples
+        return _values(*samples)[kind, pick], _slopes(*samples)[kind, pick]
 
-    omega, step, (log, first, _, S, T) = _newton(function, brackets.low, brackets.high, brackets.start, brackets.rising)
-    log = log + step * first  # the samples are those before the last step; peaks feel half of it
-    S_peak, T_peak = np.abs(S) * np.exp(-step / 2 * (T * first).real), np.abs(T) * np.exp(step / 2 * (S * first).real)
-    return omega, np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), S_peak, T_peak])
+    omega = _newton(function, brackets.low, brackets.high, brackets.start, brackets.rising)
+    log, _, _, S, T = sampled(evaluate, omega, owner)
+    return omega, np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
 
 
-def _newton(function: Callable, low, high, omega, rising):
+def _newton(function: Callable, low, high, omega, rising) -> np.ndarray:
     """Zeros inside the brackets: Newton from omega, or bisection where Newton would leave the bracket.
 
-    function: value, slope, and anything else. Returns omega, the last step to it, and that else as it was before.
+    function: value and slope at omega.   rising: whether the value is negative at low.
     """
     previous = np.zeros_like(omega)
     for _ in range(STEPS):
-        value, slope, samples = function(omega)
+        value, slope = function(omega)
         below = (value < 0) == rising
         low, high = np.where(below, omega, low), np.where(below, high, omega)
         newton = omega - value / np.where(slope == 0, np.nan, slope)
         inside = (newton >= low) & (newton <= high)
         following = np.where(value == 0, omega, np.where(inside, newton, np.sqrt(low * high)))
-        step = following - omega
-        size = np.abs(step)
-        ahead = size**3 <= ROUNDING * omega * previous**2  # errors square: the next step would be step^3/previous^2
-        settled = (inside & (ahead | (size <= QUADRATIC * omega))) | (high - low <= ROUNDING * omega) | (value == 0)
-        omega, previous = following, np.where(inside, size, 0.0)
+        step = np.abs(following - omega)
+        ahead = step**3 <= ROUNDING * omega * previous**2  # errors square: the next step would be step^3/previous^2
+        settled = (inside & (ahead | (step <= QUADRATIC * omega))) | (high - low <= ROUNDING * omega) | (value == 0)
+        omega, previous = following, np.where(inside, step, 0.0)
         if settled.all():
             break
-    return omega, step, samples
+    return omega
