@@ -17,12 +17,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.logresponse import LARGEST, FactoredResponse, Response, Together
-from simc_core.search_grid import Evaluate, Grid, sampled, search_grid
+from simc_core.logresponse import LARGEST, FactoredResponse, Response, Together, sensitivities
+from simc_core.search_grid import Evaluate, Grid, search_grid
 
 TOGETHER = 32  # loops; more do not fit the cache
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
 QUADRATIC = 1e-9  # after a Newton step this small the next would be below rounding
+SETTLED = 5e-15  # the next step would be this small
 ROUNDING = 4e-16
 HUGE = 1e43
 STEPS = 60  # of the polishing; two or three are usual
@@ -151,14 +152,15 @@ def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | N
     if not kind.size:
         return None
     low, high, owner, outer = grid.omega[at], grid.omega[at + 1], grid.owner[at], values[kind, at]
-    pick = np.arange(kind.size)
+    is_gain = kind == GAIN
 
     def slope(omega):
         _, first, second = evaluate(omega, owner)
-        return np.array([first.real, first.imag])[kind, pick], np.array([second.real, second.imag])[kind, pick]
+        return np.where(is_gain, first.real, first.imag), np.where(is_gain, second.real, second.imag)
 
     middle = _newton(slope, low, high, np.sqrt(low * high), slopes[kind, at] < 0)
-    inner = _values(*sampled(evaluate, middle, owner))[kind, pick]
+    log, *_ = evaluate(middle, owner)
+    inner = np.where(is_gain, log.real, from_negative(log))
     i = np.flatnonzero(inner * outer < 0)
     if not i.size:
         return None
@@ -171,16 +173,25 @@ def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | N
 
 def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray]:
     """omega of the zeros to full precision, (n,), and arg(-L), |L|, |S|, |T| there, (4, n)."""
-    kind, owner, pick = brackets.kind, brackets.owner, np.arange(brackets.kind.size)
+    kind, owner = brackets.kind, brackets.owner
     if not kind.size:
         return brackets.low, np.zeros((4, 0))
+    is_gain, is_crossing, is_S_peak = kind == GAIN, kind <= PHASE, kind == S_PEAK
 
     def function(omega):
-        samples = sampled(evaluate, omega, owner)
-        return _values(*samples)[kind, pick], _slopes(*samples)[kind, pick]
+        log, first, second = evaluate(omega, owner)
+        S, T = sensitivities(log)
+        weight, bend = np.where(is_S_peak, -T, S), S * T * (first * first)
+        value = np.where(is_gain, log.real, from_negative(log))
+        slope = np.where(is_gain, first.real, first.imag)
+        return (
+            np.where(is_crossing, value, (weight * first).real),
+            np.where(is_crossing, slope, (weight * second - bend).real),
+        )
 
     omega = _newton(function, brackets.low, brackets.high, brackets.start, brackets.rising)
-    log, _, _, S, T = sampled(evaluate, omega, owner)
+    log, *_ = evaluate(omega, owner)
+    S, T = sensitivities(log)
     return omega, np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
 
 
@@ -198,7 +209,7 @@ def _newton(function: Callable, low, high, omega, rising) -> np.ndarray:
         inside = (newton >= low) & (newton <= high)
         following = np.where(value == 0, omega, np.where(inside, newton, np.sqrt(low * high)))
         step = np.abs(following - omega)
-        ahead = step**3 <= ROUNDING * omega * previous**2  # errors square: the next step would be step^3/previous^2
+        ahead = step**3 <= SETTLED * omega * previous**2  # errors square: the next step would be step^3/previous^2
         settled = (inside & (ahead | (step <= QUADRATIC * omega))) | (high - low <= ROUNDING * omega) | (value == 0)
         omega, previous = following, np.where(inside, step, 0.0)
         if settled.all():
