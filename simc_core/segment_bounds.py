@@ -13,6 +13,7 @@ Ratios of the P_k have closer bounds, see term_table. Products are sums of logar
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -41,6 +42,22 @@ class Segments:
     excess: np.ndarray
 
 
+class _Values(NamedTuple):
+    """At N nodes. logs, slopes: log|q_m| and a bound of |q_m'|, (M, N).   gains, thetas: log|g_k|, theta_k, (K, N).
+
+    phase: arg P_k, continuous in omega, (K, N).   angle, size, noise: arg f, |f|, rounding error of f, (N,).
+    """
+
+    logs: np.ndarray
+    slopes: np.ndarray
+    gains: np.ndarray
+    thetas: np.ndarray
+    phase: np.ndarray
+    angle: np.ndarray
+    size: np.ndarray
+    noise: np.ndarray
+
+
 class Family:
     """Functions with the same table of exponents: n of them, of K terms with M factors."""
 
@@ -61,8 +78,24 @@ class Family:
 
     def at(self, nodes: Nodes) -> Segments:
         """The tests of the module docstring."""
-        omega, owner, e = nodes.omega, nodes.owner, self.table
-        a, b, c = (_of(x, owner) for x in (self.a, self.b, self.c))
+        v, e = self._values(nodes.omega, nodes.owner), self.table
+        left, right = v.logs[:, :-1], v.logs[:, 1:]
+        low, high = np.minimum(left, right), np.maximum(left, right)
+        if self.bends:
+            self._put_inner_minimum(low, nodes)
+        excess = self._slope(v, low, high) * (width := nodes.omega[1:] - nodes.omega[:-1])
+        excess /= np.maximum(v.size[1:] + v.size[:-1] - v.noise[1:] - v.noise[:-1], np.finfo(float).tiny)
+        zeros = v.size <= v.noise
+        zeros[1:] |= nodes.live & (excess >= 1) & (width <= SHORTEST * nodes.omega[1:])
+        change, certain = wrapped(v.angle[1:] - v.angle[:-1]), excess < 1
+        dominated = e.ratios.largest(v.logs, low, high, _on_segments(v.gains, width.size)) < CLEARLY
+        own = v.phase + wrapped(v.angle - v.phase)  # arg f, followed along P_k
+        for by, of in zip(dominated, own, strict=True):
+            change, certain = np.where(by, of[1:] - of[:-1], change), certain | by
+        return Segments(v.angle, zeros, change, certain, excess)
+
+    def _values(self, omega: np.ndarray, owner: np.ndarray) -> _Values:
+        e, (a, b, c) = self.table, (_of(x, owner) for x in (self.a, self.b, self.c))
         gains, thetas = _of(self.gains, owner), _of(self.thetas, owner)
         x = omega * omega
         real, imag = c - a * x, b * omega
@@ -71,41 +104,28 @@ class Family:
         phase = e.exponents @ np.arctan2(imag, real) - delays + _of(self.turns, owner)  # imag keeps its sign at 0
         sizes = np.exp(e.exponents @ logs + gains)
         re, im = (sizes * np.cos(phase)).sum(0), (sizes * np.sin(phase)).sum(0)
-        angle, size = np.arctan2(im, re), np.sqrt(re * re + im * im)
-        sizes *= e.counts + e.sizes @ np.abs(logs) + delays
-        left, right = logs[:, :-1], logs[:, 1:]
-        low, high = np.minimum(left, right), np.maximum(left, right)
-        if self.bends:
-            self._put_inner_minimum(low, x, owner)
-            sizes *= np.exp(e.above @ self._lost(np.abs(c) + np.abs(a) * x, imag, logs))
-        noise = ROUNDING * sizes.sum(0) + NOTHING
+        noise = sizes * (e.counts + 1 + e.sizes @ np.abs(logs) + np.abs(gains) + delays)
+        if self.bends:  # |q| without the cancellation in c - a omega^2, over |q|: rounding errors grow by that
+            full = (np.abs(c) + np.abs(a) * x) ** 2 + imag * imag
+            noise *= np.exp(e.above @ (0.5 * np.log(full + SMALLEST**2) - logs))
+        slopes = np.abs(b) + 2 * np.abs(a) * omega
+        return _Values(
+            logs, slopes, gains, thetas, phase, np.arctan2(im, re), np.hypot(re, im), ROUNDING * noise.sum(0) + NOTHING
+        )
 
-        gains = gains[:, -low.shape[1] :]  # of the segments: as many, or one for all
-        slopes = (np.abs(b) + 2 * np.abs(a) * omega)[:, 1:]
-        rates = e.above @ (slopes * np.exp(-high)) + e.below @ (slopes * np.exp(-low)) + thetas[:, -low.shape[1] :]
-        slope = (np.exp(e.above @ high - e.below @ low + gains) * rates).sum(0)
-        width = omega[1:] - omega[:-1]
-        room = size[1:] + size[:-1] - noise[1:] - noise[:-1]
-        excess = slope * width / np.maximum(room, np.finfo(float).tiny)
-        zeros = size <= noise
-        zeros[1:] |= nodes.live & (excess >= 1) & (width <= SHORTEST * omega[1:])
+    def _slope(self, v: _Values, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """K, from bounds of |P_k| and of |q'/q|."""
+        e, n = self.table, low.shape[1]
+        at_end = _on_segments(v.slopes, n)
+        rates = e.above @ (at_end * np.exp(-high)) + e.below @ (at_end * np.exp(-low)) + _on_segments(v.thetas, n)
+        return (np.exp(e.above @ high - e.below @ low + _on_segments(v.gains, n)) * rates).sum(0)
 
-        dominated = e.ratios.largest(logs, low, high, gains) < CLEARLY
-        own = phase + wrapped(angle - phase)  # arg f, followed along P_k
-        change, certain = wrapped(angle[1:] - angle[:-1]), excess < 1
-        for by, of in zip(dominated, own, strict=True):
-            change, certain = np.where(by, of[1:] - of[:-1], change), certain | by
-        return Segments(angle, zeros, change, certain, excess)
-
-    def _put_inner_minimum(self, low: np.ndarray, x: np.ndarray, owner: np.ndarray) -> None:
-        """low of the quadratic factors, smaller where |q| has its minimum inside the segment; x = omega^2."""
-        lowest, smallest = _of(self.lowest, owner[1:]), _of(self.smallest, owner[1:])
+    def _put_inner_minimum(self, low: np.ndarray, nodes: Nodes) -> None:
+        """low of the quadratic factors, smaller where |q| has its minimum inside the segment."""
+        x, owner = nodes.omega**2, nodes.owner[1:]
+        lowest, smallest = _of(self.lowest, owner), _of(self.smallest, owner)
         inside = (lowest > x[:-1]) & (lowest < x[1:])
         low[self.quadratic] = np.where(inside, smallest, low[self.quadratic])
-
-    def _lost(self, real: np.ndarray, imag: np.ndarray, logs: np.ndarray) -> np.ndarray:
-        """log of |q| without the cancellation in c - a omega^2, over |q|: rounding errors grow by that."""
-        return 0.5 * np.log(real * real + imag * imag + SMALLEST**2) - logs
 
 
 def wrapped(angle: np.ndarray) -> np.ndarray:
@@ -116,3 +136,8 @@ def wrapped(angle: np.ndarray) -> np.ndarray:
 def _of(values: np.ndarray, owner: np.ndarray) -> np.ndarray:
     """Columns of `values` by loop, one for each node; a single loop has one column for all."""
     return values if values.shape[1] == 1 else values[:, owner]
+
+
+def _on_segments(values: np.ndarray, n: int) -> np.ndarray:
+    """`values` at the upper ends of n segments, unless one column stands for all."""
+    return values[:, -n:]

@@ -23,7 +23,7 @@ from simc_core.segment_bounds import Family, wrapped
 from simc_core.segments import Nodes, geometric, split
 
 MOST_SEGMENTS = 60_000  # of one loop, about 0.1 s; a usual one needs 30 to 100
-TOGETHER = 256  # loops
+TOGETHER = 64  # loops; more do not fit the cache
 GRID_PER_DECADE = 16
 
 
@@ -70,7 +70,7 @@ def _together(functions: Sequence[Characteristic]) -> list[Winding]:
         owner = nodes.owner[1:]
         work += np.bincount(owner, nodes.live, n)
         _refuse(functions, work)
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore", invalid="ignore"):  # between two loops
             found = family.at(nodes)
         if nodes is grid:  # from the last frequency to infinity
             turned += wrapped(ahead - found.angle[ends])
