@@ -27,6 +27,7 @@ from simc_core.factors import Factored, degree, product, roots_of, rows_of, with
 Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
 
 ONE = (0.0, 0.0, 1.0)
+LEAST = 1e-20  # 2 zeta of an undamped pair, less than rounding, so that no frequency is exactly its own
 LARGEST = 600.0  # of log|L| where S and T are wanted
 
 
@@ -85,6 +86,8 @@ class Together:
         self.a, self.b, self.c = np.ascontiguousarray(np.array(rows).reshape(len(rows), -1, 3).T)  # (M, n) each
         self.signs = np.array([1.0] * top + [-1.0] * bottom)
         self.bends = self.a.any()
+        undamped = (self.a != 0) & (self.b == 0)
+        self.b[undamped] = LEAST * np.sqrt(np.abs(self.a * self.c))[undamped]
         self.thetas = np.array([response.theta for response in responses])
         self.sizes = np.array([math.log(abs(response.gain)) for response in responses])
         self.turns = np.array([-math.pi if response.gain < 0 else 0.0 for response in responses])

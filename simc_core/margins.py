@@ -117,7 +117,9 @@ def _sensitivities(L: float) -> tuple[float, float]:
 def _gain_margins(limits: tuple[float, float], found: Crossings) -> tuple[float, float, float]:
     crossed = list(zip(found.phase_gain.tolist(), found.phase_omega.tolist(), strict=True))
     crossed += [(-limit, omega) for limit, omega in zip(limits, (0.0, math.inf), strict=True) if -math.inf < limit < 0]
-    GM, omega_180 = min(((1 / gain, omega) for gain, omega in crossed if gain < 1), default=(math.inf, math.nan))
+    above = [(1 / gain, omega) for gain, omega in crossed if gain < 1]
+    GM, _ = min(above, default=(math.inf, math.nan))
+    omega_180 = min((omega for factor, omega in above if factor <= GM * (1 + ROUNDING)), default=math.nan)
     return GM, max((1 / gain for gain, _ in crossed if gain >= 1), default=0.0), omega_180
 
 

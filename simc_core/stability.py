@@ -26,7 +26,7 @@ from simc_core.winding import winding, windings
 
 SAME = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
-MOST_TURNS = 1e3  # omega theta up to which a zero on the axis is believed to be the only one near
+NEUTRAL_TURNS, MOST_TURNS = 1e3, 1e6  # omega theta up to which a zero on the axis is taken for the only one near
 
 Verdict = Literal["stable", "unstable", "marginal"]
 
@@ -106,10 +106,11 @@ def _beside(terms: Sequence[Factored], touches: float, neutral: float) -> Stabil
     """
     turns = touches * max((term.theta for term in terms), default=0.0)
     sigma = ASIDE * (touches or _slowest(terms))
-    found = winding(characteristic([shifted(term, sigma) for term in terms])) if turns <= MOST_TURNS else None
+    most = NEUTRAL_TURNS if neutral else MOST_TURNS
+    found = winding(characteristic([shifted(term, sigma) for term in terms])) if turns <= most else None
     if found is None or found.zeros is None:
         raise InvalidParameter(
-            f"omega theta of poles on the imaginary axis must be <= {MOST_TURNS:g}, got {turns:g} (|L(inf)| = "
+            f"omega theta of poles on the imaginary axis must be <= {most:g}, got {turns:g} (|L(inf)| = "
             f"{neutral:.12g}): the poles beside them cannot be told from these in double precision"
         )
     return Stability("unstable", found.zeros, neutral) if found.zeros else Stability("marginal", 0, neutral)
