@@ -209,6 +209,17 @@ def test_near_neutral_loops_with_complex_roots_take_more_work_and_are_refused_be
             stability(loop(off))
 
 
+@pytest.mark.parametrize(("theta", "T", "gain"), [(5.5e4, 215.4, 2.3), (1e3, 30.0, 0.7), (2.0, 5.0, 3.0)])
+def test_millions_of_unstable_poles_are_counted(theta, T, gain):
+    """L = gain (T s + 1) e^{-theta s}/(s (0.05 s + 1)): a pair for every turn of arg L past -pi while |L| > 1."""
+    slope = 1 - (gain * T) ** 2
+    x = (-slope + math.sqrt(slope**2 + 4 * 0.05**2 * gain**2)) / (2 * 0.05**2)  # omega^2 where |L| = 1
+    last = math.sqrt(x)
+    turned = (theta * last + math.pi / 2 + math.atan(0.05 * last) - math.atan(T * last)) / math.pi
+    loop = Loop(Plant(gain, theta, (0.05,), (T,), integrators=1), SeriesPid(1.0, math.inf))
+    assert stability(loop).unstable_poles == 2 * math.floor((turned + 1) / 2)
+
+
 def test_too_many_turns_on_the_axis_are_refused():
     with pytest.raises(InvalidParameter, match=r"omega theta .* must be <= 1000, got .* = 0.99999999"):
         stability(chain(1e-10))
