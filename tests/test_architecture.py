@@ -15,7 +15,8 @@ ORDER = [
     {"plant", "models", "controllers", "realisation", "grid"},
     {"exact", "parse", "notation", "plant_step", "simc", "loop"},
     {"reduction", "dynamics", "zeros", "zeros_1998", "split", "story", "advice"},
-    {"characteristic", "winding", "logresponse", "crossings"},
+    {"characteristic", "term_table", "segments"},
+    {"segment_bounds", "winding", "logresponse", "search_grid", "crossings"},
     {"stability", "poles", "margins", "laurent", "nested"},
     {
         "half_rule",

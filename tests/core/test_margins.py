@@ -18,7 +18,8 @@ from simc_core import (
     margins_of,
     stability,
 )
-from simc_core.logresponse import Closed, FactoredResponse, Series
+from simc_core.logresponse import Closed, FactoredResponse, Series, Together
+from simc_core.search_grid import MOST_NODES, search_grid
 from tests.published import select
 
 QUANTITY = {
@@ -115,6 +116,21 @@ def test_neutral_loop_near_its_limit():
     m = margins(Loop(Plant(0.9, 2.0), SeriesPid(1.0, math.inf)))
     assert (m.Ms, m.Mt, m.GM) == pytest.approx((10.0, 9.0, 1 / 0.9), rel=1e-12)
     assert (m.PM_deg, m.delay_margin) == (math.inf, math.inf)
+
+
+@pytest.mark.parametrize("off", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize(
+    "plant",
+    [Plant(1.0, 1.0), Plant(0.25, 1.0, (1.0,), (2.0,)), Plant(0.25, 1e-3, (9.0, 1e4), (18.0, 1e4)), Plant(1.0, 1e6)],
+)
+def test_near_neutral_loops_take_a_bounded_grid(plant, off):
+    """|L| = 1 - off at infinity and nowhere more: |S| has peaks 1/off, as far as the eye reaches."""
+    limit = plant.k * math.prod(plant.leads) / math.prod(plant.lags)
+    loop = Loop(plant, SeriesPid((1 - off) / limit, math.inf))
+    response = FactoredResponse(loop.L)
+    assert search_grid([response], Together([response]).log_derivatives).omega.size <= MOST_NODES + 1000
+    m = margins(loop)
+    assert (m.Ms, m.GM) == pytest.approx((1 / off, 1 / (1 - off)), rel=1e-5)
 
 
 def test_all_crossings_are_there_to_draw():
