@@ -134,13 +134,15 @@ class Steps:
     def _history(self, length: float) -> np.ndarray:
         """w at the nodes as far as it lies before this element, (m P, inputs)."""
         found = np.zeros((self.m, P, self.inputs))
+        if not self.count:
+            return found.reshape(-1, self.inputs)
         near = LEFT * length
         for i, theta in enumerate(self.thetas):
             begin = self.t - theta
             known = bisect_right(NODE_LIST, theta / length * (1 + LEFT))  # what is later belongs to this element
             node = bisect_left(NODE_LIST, near - begin, 0, known, key=length.__mul__) if begin < 0 else 0
             while node < known:
-                piece = bisect_right(self.edges, begin + length * NODE_LIST[node] - near) - 1
+                piece = bisect_right(self.edges, begin + length * NODE_LIST[node] - near, 1, self.count) - 1
                 start, end = self.edges[piece], self.edges[piece + 1]
                 to = max(bisect_right(NODE_LIST, (end + near - begin) / length, node, known), node + 1)
                 basis = self._basis(2 * (begin - start) / (end - start) - 1, 2 * length / (end - start))
