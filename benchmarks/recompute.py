@@ -17,21 +17,23 @@ POINTS, FREQUENCIES = 600, 400
 
 
 def peer(loop: Loop, order: int, t: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    """A full recompute by python-control with Pade(order); y of the scenario comes back.
+    """A full recompute by python-control with Pade(order); y of the set-point step comes back.
 
     Its best use: one MIMO state-space call for the responses, one for the frequencies.
     """
     system = closed_loop(loop, order)
-    y = control.forced_response(system, t, np.array([np.ones_like(t), (t >= t[-1] / 2).astype(float)])).y
-    unit = control.forced_response(system, t, np.array([np.ones_like(t), np.zeros_like(t)])).y
-    for e, u in ((1 - unit[0], unit[1]), (-(y[0] - unit[0]), y[1] - unit[1])):
+    responses = control.step_response(system, t).outputs
+    for source in range(2):
+        y, u = responses[:, source]
+        e = (1.0 - source) - y
         np.trapezoid(np.abs(e), t), np.trapezoid(e**2, t), np.trapezoid(t * np.abs(e), t), np.abs(np.diff(u)).sum()
+    control.step_info(responses[0, 0], T=t)
     L = to_tf(loop.plant, order) * to_tf(loop.controller)
     control.frequency_response(system, omega)
     control.frequency_response(L, omega)
     control.stability_margins(L)
     system.poles()
-    return y[0]
+    return responses[0, 0]
 
 
 def median_times(jobs: dict[str, Callable[[], object]]) -> dict[str, float]:

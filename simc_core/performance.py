@@ -12,9 +12,8 @@ import numpy as np
 
 from simc_core.errors import NotStable
 from simc_core.loop import Loop
-from simc_core.metrics import Steps, measures, rise_and_settling
+from simc_core.metrics import Steps, measures
 from simc_core.simulation.course import Course
-from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.simulate import settled
 from simc_core.stability import stability
 
@@ -88,14 +87,5 @@ def both_steps(course: Course) -> Steps:
 def metrics_of(steps: Steps) -> tuple[StepMetrics, ...]:
     """All metrics of each response."""
     found = measures(steps)
-    rise, settling = rise_and_settling(steps, found.peak)
-    columns = (found.IAE, found.ISE, found.ITAE, found.TV, found.overshoot, found.peak, found.peak_time, rise, settling)
+    columns = [getattr(found, name) for name in StepMetrics.__slots__]
     return tuple(StepMetrics(*row) for row in np.array(columns).T.tolist())
-
-
-def step_metrics(pieces: Pieces, column: int) -> StepMetrics:
-    """Metrics of y and u, the values of `pieces` (y, u) x (r, d), for column 0 (set point) or 1 (load)."""
-    y, u = pieces.coefficients[:, :, 0, column], pieces.coefficients[:, :, 1, column]
-    owner = np.zeros(len(y), dtype=int)
-    first, target = np.zeros(1, dtype=int), np.array([1.0 - column])
-    return metrics_of(Steps(owner, pieces.edges[:-1], np.diff(pieces.edges), y, u, first, target))[0]

@@ -14,7 +14,7 @@ from simc_core.simulation.pieces import NEAR, Pieces
 class Stretch:
     """Elements of `lengths` one after the other, for some of the tunings.
 
-    which, begin: the tunings and when it begins.   values: (2, m, k, 2), y and z = u + d at the nodes, for r and d.
+    which, begin: the tunings and when it begins.   values: (k, m, 4), y and z = u + d for r and for d at the nodes.
     """
 
     which: list[int]
@@ -74,10 +74,10 @@ def course(stretches: Sequence[Stretch], n: int, at_rest: Sequence[bool]) -> Cou
             owner += stretch.which
             begin += [each + start for each in stretch.begin]
             length += [h] * len(stretch.which)
-            values.append(stretch.values[:, e * P : (e + 1) * P].transpose(2, 0, 3, 1))
+            values.append(stretch.values[:, e * P : (e + 1) * P])
     owner = np.array(owner)
     order = np.argsort(owner, kind="stable") if n > 1 else slice(None)
-    coefficients = (np.concatenate(values) @ TO_CHEBYSHEV.T)[order]
+    coefficients = (TO_CHEBYSHEV @ np.concatenate(values)[order]).transpose(0, 2, 1).reshape(-1, 2, 2, P)
     coefficients[:, 1, 1, 0] -= 1.0  # u = z - d
     owner = owner[order]
     first = np.searchsorted(owner, np.arange(n + 1))

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, SeriesPid, simulate
+from simc_core.simulation.elements import P
 from simc_core.simulation.network import network
 from simc_core.simulation.several_delays import Steps, steps_of
 from tests.core.pairs import PAIRS
@@ -120,7 +121,7 @@ def test_integrals_to_the_end(pair):
     [PSB]. Says that nothing is lost on the long way to rest, with elements of all lengths."""
     pieces = steps_of(loop_of(pair).nested).run(400 * sum(block.theta for block in PAIRS[pair]))
     y1 = pieces.coefficients[:, :, 1, :]
-    even = np.array([1 / (1 - k**2) if k % 2 == 0 else 0.0 for k in range(16)])  # mean of T_k over [-1, 1]
+    even = np.array([1 / (1 - k**2) if k % 2 == 0 else 0.0 for k in range(P)])  # mean of T_k over [-1, 1]
     means = np.einsum("ikv,k->iv", y1, even)
     found = np.diff(pieces.edges) @ means
     scale = np.diff(pieces.edges) @ np.abs(means)
