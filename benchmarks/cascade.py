@@ -12,7 +12,7 @@ import numpy as np
 
 from benchmarks.recompute import FREQUENCIES, POINTS, keep, median_times, peer, pin
 from simc_core import CascadeLoop, Loop, Scenario, frequency_response, margins, performance, simulate, stability
-from simc_core.cascade import verdict
+from simc_core.cascade import closed, verdict
 from simc_core.cascade_examples import ROWS, designed
 from simc_core.simulation.nested import horizon
 from simc_core.simulation.several_delays import steps_of
@@ -23,8 +23,8 @@ RATIO = 4000
 
 def ours(loop: CascadeLoop, t_end: float, omega: np.ndarray) -> None:
     """Everything about one cascade."""
-    steps_of.cache_clear()
-    verdict.cache_clear()
+    for remembered in (steps_of, verdict, closed):
+        remembered.cache_clear()
     simulate(loop, Scenario(t_end=t_end, points=POINTS))
     frequency_response(loop.outer_loop, omega)
     frequency_response(loop.inner_loop, omega)

@@ -18,7 +18,7 @@ from simc_core.margins import NOT_STABLE, Margins, crossings, margins, margins_o
 from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.stability import Stability, Verdict, count_unstable, stability
 
-RECENT = 64  # loops whose verdict is remembered
+RECENT = 64  # loops that are remembered
 RESONANCE = 1.05  # a peak of |T| above this bends the response enough to deserve nodes of its own
 
 
@@ -76,10 +76,14 @@ def _(loop: NestedLoops) -> Crossings:
 def response(loop: NestedLoops) -> Response:
     """L of the outermost loop, the others closed, as the search for margins sees it."""
     own = FactoredResponse(loop.own)
-    if loop.inside is None:
-        return own
-    inner = response(loop.inside)
-    return Series(own, Closed(inner, _resonances(inner)))
+    return own if loop.inside is None else Series(own, closed(loop.inside))
+
+
+@lru_cache(maxsize=RECENT)  # many outer loops are tried round one inner loop
+def closed(loop: NestedLoops) -> Closed:
+    """T of these loops, remembered."""
+    inner = response(loop)
+    return Closed(inner, _resonances(inner))
 
 
 def _resonances(inner: Response) -> np.ndarray:

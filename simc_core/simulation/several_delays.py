@@ -9,6 +9,7 @@ breakpoint.
 """
 
 import math
+from bisect import bisect_left, bisect_right
 from functools import lru_cache
 from threading import Lock
 
@@ -22,7 +23,7 @@ from simc_core.simulation.elements import NODES, P
 from simc_core.simulation.network import Network, network
 from simc_core.simulation.pieces import Pieces
 
-TAIL = 1e-10  # last two coefficients of an element, relative to the largest value so far
+TAIL = 3e-10  # last two coefficients of an element, relative to the largest value so far
 ROOM = 2.0**-10  # the tail must be below ROOM TAIL for the length to be doubled at once
 MOST_PATIENCE = 4
 ROUGH = 2  # behind a jump of a derivative up to this order elements start short; four times as long for each more
@@ -34,9 +35,11 @@ ROUNDING = 1e-14
 MOST_ELEMENTS = 40_000
 LARGEST = 1e150
 GROWTH = 1.02  # of a signal before its size is taken anew
-DIGITS = 11  # behind the point: lengths that agree to so many are the same
+DIGITS = 11  # behind the point: lengths and places that agree to so many are the same
 ROOM_AT_FIRST = 128  # elements
 DEGREES = np.arange(P)
+NODE_LIST = NODES.tolist()
+MOST_BASES = 500  # remembered; about 1 MB
 largest = np.maximum.reduce  # along an axis; the method of arrays takes three times as long
 RECENT = 8  # loops whose steps are remembered
 
@@ -49,9 +52,9 @@ class Steps:
         n, self.m = system.B.shape
         self.inputs, self.signals = system.E.shape[1], self.m + len(system.Co)
         self.t, self.x, self.steps = 0.0, np.zeros((n, self.inputs)), np.eye(self.inputs)
-        self.edges = np.zeros(ROOM_AT_FIRST + 1)
+        self.edges, self.thetas = [0.0], system.theta.tolist()
         self.coefficients = np.zeros((ROOM_AT_FIRST, self.signals, P, self.inputs))  # of (z, o), Chebyshev
-        self.count, self.rows = 0, np.arange(self.m)[:, None]
+        self.count = 0
         self.summands = np.abs(np.concatenate([system.C, system.Co]))  # a large kick leaves few digits of u
         self.breakpoints = Breakpoints(system)
         self.upcoming = self.breakpoints.next()
@@ -60,6 +63,7 @@ class Steps:
         self.behind = SMOOTH  # order of the breakpoint at t; SMOOTH for none
         self.good, self.patience = 0, 1  # elements accepted in a row, and how many before a longer one is tried
         self.maps: dict[float, DelayMap] = {}
+        self.bases: dict[tuple[float, float], np.ndarray] = {}
         self.largest = np.full((self.signals, self.inputs), 1e-300)
         self.allowed, self.bounded = TAIL * self.largest, True
         self.lock = Lock()  # one Steps may serve several sessions
@@ -74,7 +78,7 @@ class Steps:
                 self._pass_breakpoints()
                 self._step()
             outputs = self.coefficients[: self.count, self.m :]
-            return Pieces(self.edges[: self.count + 1], np.moveaxis(outputs, 2, 1))
+            return Pieces(np.array(self.edges), np.moveaxis(outputs, 2, 1))
 
     def _pass_breakpoints(self) -> None:
         while self.upcoming is not None and self.upcoming[0] <= self.t:
@@ -96,6 +100,8 @@ class Steps:
                 self.h /= 2
         if self.behind < SMOOTH:  # the next breakpoint like this one begins where this one did, or bolder
             self.first[self.behind] = 2 * self.h if tail < ROOM else self.h
+            for order in range(self.behind + 1, SMOOTH):
+                self.first[order] = min(self.first[order], 2 * self.first[order - 1])
             self.behind, self.patience = SMOOTH, 1
         self._keep(values, x, self.upcoming[0] if last else self.t + length)
         self.good += 1
@@ -127,22 +133,33 @@ class Steps:
 
     def _history(self, length: float) -> np.ndarray:
         """w at the nodes as far as it lies before this element, (m P, inputs)."""
+        found = np.zeros((self.m, P, self.inputs))
         if not self.count:
-            return np.zeros((self.m * P, self.inputs))
-        passed = length * NODES
-        at = self.t + passed - self.system.theta[:, None]
-        inside = passed <= self.system.theta[:, None] * (1 + LEFT)  # what is later belongs to this element
-        piece = self.edges[: self.count].searchsorted(at - LEFT * length, side="right") - 1
-        known = inside & (piece >= 0)
-        piece[~known] = 0
-        start = self.edges[piece]
-        x = 2 * (at - start) / (self.edges[piece + 1] - start) - 1
-        basis = np.cos(DEGREES * np.arccos(np.minimum(np.maximum(x, -1.0), 1.0))[..., None])
-        if not known.all():
-            basis[~known] = 0.0
-        signal = piece * self.signals + self.rows
-        earlier = self.coefficients.reshape(-1, P, self.inputs).take(signal, axis=0)
-        return (basis[:, :, None, :] @ earlier).reshape(-1, self.inputs)
+            return found.reshape(-1, self.inputs)
+        near = LEFT * length
+        for i, theta in enumerate(self.thetas):
+            begin = self.t - theta
+            known = bisect_right(NODE_LIST, theta / length * (1 + LEFT))  # what is later belongs to this element
+            node = bisect_left(NODE_LIST, near - begin, 0, known, key=length.__mul__) if begin < 0 else 0
+            while node < known:
+                piece = bisect_right(self.edges, begin + length * NODE_LIST[node] - near, 1, self.count) - 1
+                start, end = self.edges[piece], self.edges[piece + 1]
+                to = max(bisect_right(NODE_LIST, (end + near - begin) / length, node, known), node + 1)
+                basis = self._basis(2 * (begin - start) / (end - start) - 1, 2 * length / (end - start))
+                found[i, node:to] = basis[node:to] @ self.coefficients[piece, i]
+                node = to
+        return found.reshape(-1, self.inputs)
+
+    def _basis(self, first: float, slope: float) -> np.ndarray:
+        """Chebyshev polynomials at x = first + slope c_j, (P, P). The mesh is regular: most are asked for again."""
+        key = round(first, DIGITS), round(slope, DIGITS)
+        found = self.bases.get(key)
+        if found is None:
+            if len(self.bases) >= MOST_BASES:
+                self.bases.clear()
+            x = np.minimum(np.maximum(first + slope * NODES, -1.0), 1.0)
+            found = self.bases[key] = np.cos(DEGREES * np.arccos(x)[:, None])
+        return found
 
     def _keep(self, values: np.ndarray, x: np.ndarray, end: float) -> None:
         if self.count >= MOST_ELEMENTS:
@@ -151,9 +168,9 @@ class Steps:
                 "the loop oscillates too fast for it"
             )
         if self.count == len(self.coefficients):
-            self.edges = np.concatenate([self.edges, np.zeros(self.count)])
             self.coefficients = np.concatenate([self.coefficients, np.zeros_like(self.coefficients)])
-        self.coefficients[self.count], self.edges[self.count + 1] = values, end
+        self.coefficients[self.count] = values
+        self.edges.append(end)
         self.count += 1
         if (largest(np.abs(values), 1) > GROWTH * self.largest).any():
             self.largest, self.allowed = self._sizes(values)
