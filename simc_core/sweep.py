@@ -15,7 +15,7 @@ from simc_core import checks
 from simc_core.controllers import Controller, IController
 from simc_core.errors import InvalidParameter
 from simc_core.loop import Loop, at_frequencies
-from simc_core.margins import margins
+from simc_core.margins import margins_many
 from simc_core.metrics import measures
 from simc_core.models import Model
 from simc_core.performance import both_steps
@@ -81,7 +81,7 @@ def sweep(
     tau_c, t, omega = _tau_c(tau_c), instants(t), at_frequencies(omega)
     controllers = tuple(dressed(simc(model, each), b, filter_ratio) for each in tau_c.tolist())
     loops = [Loop(plant, controller) for controller in controllers]
-    found = [margins(loop) for loop in loops]
+    found = margins_many(loops)
     stable = [each.stable for each in found]
     curves, metrics = _curves_and_metrics(plant, controllers, stable, t, disturbance_time)
     G = plant.factored(1j * omega)

@@ -21,9 +21,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from simc_core.characteristic import limit_at_infinity
 from simc_core.controllers import ParallelPid
 from simc_core.errors import InvalidParameter
+from simc_core.logresponse import FactoredResponse
 from simc_core.plant import Plant
 from simc_core.simulation.course import Course, Stretch, course
 from simc_core.simulation.elements import TO_CHEBYSHEV, P
@@ -77,7 +77,7 @@ def _check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
             )
         if not plant.theta:
             L = plant.factored * form.factored
-            if L.relative_degree == 0 and abs(1 + limit_at_infinity(L)) < WELL_POSED:
+            if L.relative_degree == 0 and abs(1 + FactoredResponse(L).at_infinity.gain) < WELL_POSED:
                 raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: u is not defined")
 
 
