@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from simc_core.errors import InvalidParameter
 from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.simulation.network import network
 from simc_core.simulation.pieces import Pieces
@@ -70,6 +71,11 @@ def _(loop: CascadeLoop, scenario: Scenario | None = None) -> NestedResponse:
 @simulate.register
 def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
     scenario = scenario or Scenario()
+    if not scenario.actuation.linear:
+        raise InvalidParameter(
+            "u_min, u_max, noise and h must be left out for nested loops, whose limits are in simulation/windup.py, "
+            f"got {scenario.actuation}"
+        )
     N = len(loop.blocks)
     heights = np.zeros(1 + N)
     heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d

@@ -8,8 +8,9 @@ import numpy as np
 from simc_core.errors import SimcError
 from simc_core.loop import Loop
 from simc_core.poles import dominant_poles
+from simc_core.simulation.actuation import Course, Inputs
 from simc_core.simulation.pieces import Pieces, clenshaw
-from simc_core.simulation.saturation import Actuation, actuated
+from simc_core.simulation.saturation import actuated
 from simc_core.simulation.scenario import Scenario, TimeResponse
 from simc_core.simulation.steps import unit_steps
 from simc_core.simulation.system import closed_loop
@@ -30,14 +31,8 @@ def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
     """
     scenario = scenario or Scenario()
     begins, t_end = times(loop, scenario)
-    actuation = Actuation(
-        scenario.u_min, scenario.u_max, scenario.tracking_time, scenario.noise, scenario.seed, scenario.h
-    )
-    if not actuation.linear:
-        t = np.linspace(0.0, t_end, scenario.points) if scenario.t is None else scenario.t
-        course = actuated(loop, actuation, scenario.setpoint, scenario.disturbance, begins, max(t_end, float(t[-1])))
-        y, u = course.at(t)
-        return TimeResponse(t, np.full(len(t), scenario.setpoint), held(t, begins, scenario.disturbance), y, u)
+    if not scenario.actuation.linear:
+        return _as_built(loop, scenario, begins, t_end)
     pieces = unit_steps(closed_loop(loop), t_end)
     heights = np.array([scenario.setpoint, scenario.disturbance])
     starts = np.array([0.0, begins])
@@ -49,6 +44,26 @@ def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
         r[left[t[left] == 0.0]] = 0.0
         d[left[t[left] == begins]] = 0.0
     return TimeResponse(t, r, d, outputs[:, 0], outputs[:, 1])
+
+
+def _as_built(loop: Loop, scenario: Scenario, begins: float, t_end: float) -> TimeResponse:
+    """With actuator limits, noise or sampling: the course of the steps, at the instants of the scenario."""
+    inputs = Inputs(scenario.setpoint, scenario.disturbance, begins, t_end)
+    return on_grid(actuated(loop, scenario.actuation, inputs), inputs, scenario.points, scenario.t)
+
+
+def on_grid(course: Course, inputs: Inputs, points: int, t: np.ndarray | None = None) -> TimeResponse:
+    """A course at the instants t; None: at `points` instants, both limits at its jumps."""
+    begins, left = inputs.disturbance_time, []
+    if t is None:
+        jumps = np.unique(np.concatenate([[0.0, begins], course.jumps()]))
+        t, left = doubled(np.linspace(0.0, inputs.t_end, points), jumps[jumps <= inputs.t_end])
+    y, u = course.at(t)
+    r, d = held(t, 0.0, inputs.setpoint), held(t, begins, inputs.disturbance)
+    y[left], u[left] = course.before(t[left])
+    r[left] *= t[left] > 0
+    d[left] *= t[left] > begins
+    return TimeResponse(t, r, d, y, u)
 
 
 def times(loop: Loop, scenario: Scenario) -> tuple[float, float]:
@@ -100,10 +115,12 @@ def grid(pieces: Pieces, heights, starts, t_end: float, points: int) -> tuple[np
     """Instants with jumps twice, and the indices of those that mean the left limit."""
     t = np.linspace(0.0, t_end, points)
     jumps = np.concatenate([starts, *(jump_times(pieces, i) + starts[i] for i in range(len(heights)) if heights[i])])
-    jumps = np.unique(jumps[jumps <= t_end])[:MOST_JUMPS]
-    both = np.concatenate([t[~np.isin(t, jumps)], jumps, jumps])
-    order = np.argsort(both, kind="stable")
-    grid = both[order]
+    return doubled(t, np.unique(jumps[jumps <= t_end])[:MOST_JUMPS])
+
+
+def doubled(t: np.ndarray, jumps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """t with each of `jumps` in it twice, and the indices of the first of the two."""
+    grid = np.sort(np.concatenate([t[~np.isin(t, jumps)], jumps, jumps]))
     return grid, np.flatnonzero(np.append(grid[1:] == grid[:-1], False))
 
 

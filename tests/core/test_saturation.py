@@ -9,7 +9,13 @@ from scipy.integrate import solve_ivp
 
 from simc_core import IController, InvalidParameter, Loop, Plant, SeriesPid
 from simc_core.interop import closed_loop
-from simc_core.simulation.saturation import Actuation, actuated, tracking_time
+from simc_core.simulation.actuation import Actuation, Course, Inputs, tracking_time
+from simc_core.simulation.saturation import actuated as run
+
+
+def actuated(loop, actuation, *inputs) -> Course:
+    return run(loop, actuation, Inputs(*inputs))
+
 
 LOOPS = [
     Loop(Plant(1.0, 1.0, (8.0,)), SeriesPid(4.0, 8.0, b=0.5)),
@@ -130,7 +136,7 @@ def test_default_tracking_times():
 
 
 def test_what_costs_too_much_or_has_no_meaning_is_refused():
-    with pytest.raises(InvalidParameter, match="200000 steps for a dead time of 1e-05"):
+    with pytest.raises(InvalidParameter, match="100000 steps for a dead time of 1e-05"):
         actuated(Loop(Plant(1.0, 1e-5, (8.0,)), SeriesPid(4.0, 8.0)), Actuation(), 1.0, 0.0, 0.0, 30.0)
     with pytest.raises(InvalidParameter, match="tau_F must be > 0"):
         actuated(Loop(Plant(1.0, 1.0, (8.0,), (2.0,)), SeriesPid(4.0, 8.0, 1.0)), Actuation(), 1.0, 0.0, 0.0, 30.0)
