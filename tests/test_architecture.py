@@ -18,7 +18,7 @@ ORDER = [
     {"characteristic", "winding", "logresponse", "crossings"},
     {"stability", "poles", "margins", "laurent", "nested"},
     {"half_rule", "simulation", "model_error"},  # the half rule judges its candidates by their Ms
-    {"performance", "robustness"},
+    {"performance", "robustness", "as_built"},
     {"sweep", "tau_table", "cascade", "direct_synthesis", "fastest", "cascade_design", "nested_performance"},
     {"examples", "references", "cascade_examples"},
 ]

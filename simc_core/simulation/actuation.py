@@ -166,7 +166,7 @@ class Driven:
 
 
 def affordable(steps: float, why: str) -> int:
-    """`steps` rounded up. Raises InvalidParameter beyond MOST_STEPS."""
+    """Whole steps that go beyond `steps`, so that a jump at the end is seen. Raises InvalidParameter: MOST_STEPS."""
     if steps > MOST_STEPS:
         raise InvalidParameter(f"t_end must be <= {MOST_STEPS} steps for {why}, got {steps:.3g}")
-    return math.ceil(steps * (1 - SAME))
+    return math.floor(steps * (1 + SAME)) + 1

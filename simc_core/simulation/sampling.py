@@ -41,11 +41,13 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     law = _Law(form, actuation, inputs.setpoint, tracking_time(loop, actuation), math.ceil(N / fine))
     y, v, u = np.zeros((N, 2)), np.zeros(N), np.zeros(m + N + 1)  # u[m + j] is that of step j
     now = taken = 0
-    while now < N:
-        while taken * fine <= now:  # the newest samples that y is known for
+    while True:
+        while taken * fine < min(now + 1, N):  # the newest samples that y is known for
             at = taken * fine
             v[at : at + fine], u[m + at : m + at + fine] = law(y[at - 1, 1] if at else 0.0, taken)
             taken += 1
+        if now == N:
+            break
         until = plant.end_of_block(now, min(N, taken * fine + m - (late > 0)))
         o = plant(np.stack([u[now:until], u[now + (late > 0) : until + (late > 0)]], axis=1), now)
         y[now:until] = o[:, :, 0]
