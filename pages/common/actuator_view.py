@@ -44,7 +44,7 @@ def mark(actuator: Actuator, place: str) -> None:
         )
         if state.widget("views") != VIEW:
             st.button(
-                "Open the loop as built",
+                ":blue[Open the loop as built]",
                 key=f"open_built_{place}",
                 type="tertiary",
                 on_click=state.set_widget,
@@ -91,7 +91,7 @@ def _inputs(actuator: Actuator) -> None:
         _number("Tracking time", "T_t", 1 / LONGEST_TIME, LONGEST_TIME, TRACKING, "usual choice")
         _number("Sampling period", "sampling", 0.0, LONGEST_TIME, SAMPLING)
         _number("Noise on y, std", "noise", 0.0, LARGEST_GAIN, NOISE)
-        _number("Noise, number of the draw", "seed", 0, 2**32 - 1, "The same number gives the same noise.")
+        _number("Noise seed", "seed", 0, 2**32 - 1, "The same number gives the same noise.")
         _number("Set-point step", "r", -LARGEST_GAIN, LARGEST_GAIN, HEIGHTS)
         _number("Load step", "d", -LARGEST_GAIN, LARGEST_GAIN, HEIGHTS)
 
@@ -115,6 +115,7 @@ def _number(label: str, name: str, low, high, help_: str, empty: str | None = No
         label,
         low,
         high,
+        "min" if empty is None else None,  # None: it can be emptied
         step=1 if whole else None,
         format=None if whole else "%.6g",
         help=help_,
