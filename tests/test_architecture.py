@@ -20,7 +20,7 @@ ORDER = [
     {"half_rule", "simulation", "model_error"},  # the half rule judges its candidates by their Ms
     {"performance", "robustness", "as_built"},
     {"sweep", "tau_table", "cascade", "direct_synthesis", "fastest", "cascade_design", "nested_performance"},
-    {"examples", "references", "cascade_examples"},
+    {"examples", "reference_values", "references", "cascade_examples"},
 ]
 LEVEL = {name: level for level, names in enumerate(ORDER) for name in names}
 

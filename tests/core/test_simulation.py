@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from simc_core import IController, IdealPid, InvalidParameter, Loop, ParallelPid, Plant, Scenario, SeriesPid, simulate
+from tests.core.high_precision import by_series
 
 WITHIN = 1e-9
 
@@ -19,71 +20,6 @@ def test_the_step_response_of_2_over_s_with_unit_delay_is_piecewise_polynomial()
     response = simulate(Loop(Plant(1, 1), IController(2)), Scenario(disturbance=0, t=t))
     assert np.array_equal(response.t, t)
     assert response.y == pytest.approx([0, 0, 1, 2, 2.5, 2], abs=1e-13)
-
-
-def steps_by_hand(plant, C, until, terms=24):
-    """y of the unit set-point and load step at `until`, by mpmath: y = sum_k (-1)^k ... expanded in e^{-theta s}.
-
-    y_r = sum_{k>=1} (-1)^{k+1} Laplace^{-1}[(g C)^k / s](t - k theta)
-    y_d = sum_{k>=0} (-1)^k Laplace^{-1}[g (g C)^k / s](t - (k+1) theta)
-    each term a rational function over multiplied-out mpmath polynomials, inverted by its Taylor series in t.
-    """
-    g, theta = plant.factored, mp.mpf(plant.theta)
-
-    def rational(F, power):
-        num, den = [mp.mpf(F.gain) ** power], [mp.mpf(1)]
-        for _ in range(power):
-            for row in F.num:
-                num = multiply(num, row)
-            for row in F.den:
-                den = multiply(den, row)
-        return num, den
-
-    answer = []
-    for load in (False, True):
-        total, k = mp.mpf(0), 0 if load else 1
-        while (k + load) * theta < until and k <= terms:
-            t = mp.mpf(until) - (k + load) * theta
-            n1, d1 = rational(g, k + load)
-            n2, d2 = rational(C, k)
-            series = taylor(multiply(n1, n2), multiply(multiply(d1, d2), [1, 0]), t)
-            total += (-1) ** (k if load else k + 1) * series
-            k += 1
-        answer.append(float(total))
-    return answer
-
-
-def multiply(p, q):
-    """Product of polynomials, descending powers."""
-    q = [mp.mpf(float(c)) for c in q]
-    out = [mp.mpf(0)] * (len(p) + len(q) - 1)
-    for i, a in enumerate(p):
-        for j, b in enumerate(q):
-            out[i + j] += a * b
-    return out
-
-
-def taylor(num, den, t, most=900):
-    """Inverse Laplace transform of num/den at t by its series sum_j c_j t^j/j!, where c_j are the Markov parameters."""
-    while num and num[0] == 0:
-        num = num[1:]
-    while den[0] == 0:
-        den = den[1:]
-    shift = len(den) - len(num)
-    lead, c, total, j = den[0], [], mp.mpf(0), 0
-    power = t ** (shift - 1) / mp.factorial(shift - 1)
-    while j < most:
-        value = (num[j] if j < len(num) else mp.mpf(0)) - sum(
-            den[i] * c[j - i] for i in range(1, min(j, len(den) - 1) + 1)
-        )
-        c.append(value / lead)
-        term = c[-1] * power
-        total += term
-        if j > 4 * len(den) and abs(term) < mp.mpf(10) ** -30 and abs(c[-1] * power) < mp.mpf(10) ** -30:
-            break
-        j += 1
-        power = power * t / (j + shift - 1)
-    return total
 
 
 CASES = {
@@ -116,9 +52,9 @@ def test_against_the_expansion_in_delays_in_high_precision(name):
         for i, instant in enumerate(instants):
             if "order 12" in name and instant > 3:
                 continue
-            y_r, y_d = steps_by_hand(plant, one.factored, instant)
-            assert got_r[i] == pytest.approx(y_r, abs=WITHIN)
-            assert got_d[i] == pytest.approx(y_d, abs=WITHIN)
+            y_r, y_d = by_series(plant, one.factored, instant)
+            assert got_r[i] == pytest.approx(float(y_r), abs=WITHIN)
+            assert got_d[i] == pytest.approx(float(y_d), abs=WITHIN)
 
 
 def test_without_dead_time_against_the_closed_form():
