@@ -11,13 +11,13 @@ st.markdown("#### See for yourself")
 st.markdown(
     "Each row is computed now, by the same functions that draw the other pages, and set beside what was printed, "
     "follows by hand, or was computed in 60 digits by another method. A printed number can be met to half its last "
-    "digit, the others to rounding."
+    "digit, the others as far as double precision goes; what is allowed stands beside them."
 )
 checks = check_all()
 summary(checks)
 groups(checks)
 st.caption(
     "All published numbers are tests of the program, and the high-precision ones are computed again by its tests; "
-    "these are a selection. [SK03] J. Process Control 13 (2003) 291-309. [V06] Viteckova, SIMC tables and examples. [PSB] "
-    "Prelic, Sekara, Boskovic, cascade processes under robustness constraints."
+    "these are a selection. [SK03] J. Process Control 13 (2003) 291-309. [V06] Viteckova, SIMC tables and examples. "
+    "[PSB] Prelic, Sekara, Boskovic, cascade processes under robustness constraints."
 )

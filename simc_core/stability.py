@@ -26,6 +26,7 @@ from simc_core.winding import winding
 
 SAME = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
+LOST = 1e8  # radians of theta omega; beyond them a zero "within rounding" may be rounding alone
 
 Verdict = Literal["stable", "unstable", "marginal"]
 
@@ -54,7 +55,8 @@ def count_unstable(terms: Sequence[Factored]) -> Stability:
 
     Factors of the denominators that are equal in several terms are the same block, as in the cascade
     1 + Lb + Lb Ca Ga: Lb's poles count once. Nothing is cancelled.
-    Raises InvalidParameter: ill-posed loops, and those that would cost more than winding.MOST_SEGMENTS.
+    Raises InvalidParameter: ill-posed loops, those that would cost more than winding.MOST_SEGMENTS, and dead times
+    that turn the phase so far that doubles no longer hold it.
     """
     terms = [term for term in terms if term.gain]
     f = characteristic(terms)
@@ -72,6 +74,12 @@ def count_unstable(terms: Sequence[Factored]) -> Stability:
 
 def _beside(terms: Sequence[Factored], touches: float, neutral: float) -> Stability:
     """Verdict on a loop with zeros on the axis: those to the right of them are counted on a contour beside it."""
+    theta = max(term.theta for term in terms)
+    if theta * touches > LOST:
+        raise InvalidParameter(
+            f"theta must be <= {LOST / touches:.3g} for a loop with a pole near {touches:.3g} rad per unit of time, "
+            f"got {theta:g}: its phase is lost in rounding"
+        )
     sigma = ASIDE * (touches or _slowest(terms))
     zeros = winding(characteristic([shifted(term, sigma) for term in terms])).zeros
     return Stability("unstable", zeros, neutral) if zeros else Stability("marginal", 0, neutral)

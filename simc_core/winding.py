@@ -77,7 +77,8 @@ class _Segments:
         self.noise = sum(part.noise for part in parts)
         slope = sum(part.slope for part in parts)
         room = np.abs(self.fa) + np.abs(self.fb) - 2 * self.noise
-        self.excess = slope * (b - a) / np.maximum(room, np.finfo(float).tiny)
+        with np.errstate(over="ignore"):  # no room at all: the segment is split for ever, or f is zero there
+            self.excess = slope * (b - a) / np.maximum(room, np.finfo(float).tiny)
 
     def zero(self) -> float | None:
         """A frequency where f is zero within rounding."""

@@ -6,13 +6,14 @@ from html import escape
 import streamlit as st
 
 from pages.common import readout
+from pages.common.symbols import symbols
 from simc_core.references import GROUPS, Check
 
 WHY = {
-    "Time responses": "y at one instant. The high-precision values expand the loop in powers of e^{−θs} and invert "
-    "each term on a contour, which has nothing in common with the engine here.",
-    "Metrics of steps": "Integrals over all time. For L = e^{−s}/(2s) the response is a polynomial between whole "
-    "times, integrated between its roots in 60 digits; a response of one sign has IAE = τI/Kc.",
+    "Time responses": "y at one instant. The high-precision values expand the loop in powers of $e^{-\\theta s}$ and "
+    "invert each term on a contour, which has nothing in common with the engine here.",
+    "Metrics of steps": "Integrals over all time. For $L = e^{-s}/(2s)$ the response is a polynomial between whole "
+    "times, integrated between its roots in 60 digits; a response of one sign has IAE = $\\tau_I/K_c$.",
     "Margins": "For a first-order plant they follow by hand, the others by root finding in 60 digits, "
     "and [SK03] prints them to three.",
     "Stability at the limit": "Verdicts one part in 10⁹ inside, on, and outside of limits that follow by hand, and "
@@ -71,7 +72,7 @@ def table(found: list[Check]) -> dict[str, list[str]]:
     return {
         "": ["✓" if each.met else "✗ differs" for each in found],
         "Case": [row.what for row in rows],
-        "Quantity": [row.quantity for row in rows],
+        "Quantity": [symbols(row.quantity) for row in rows],
         "Expected": [value_text(row.expected) for row in rows],
         "Here": [value_text(each.ours) for each in found],
         "Difference": ["" if math.isnan(each.difference) else f"{each.difference:.1e}" for each in found],

@@ -73,9 +73,9 @@ class TimeResponse:
 
 
 def _instants(given) -> np.ndarray:
-    t = np.asarray(given, dtype=float)
-    if t.ndim != 1 or not 1 <= t.size <= MOST_POINTS:
-        raise InvalidParameter(f"t must be a list of 1 to {MOST_POINTS} instants, got shape {t.shape}")
+    t = checks.array("t", given, MOST_POINTS)
     if not np.all(np.isfinite(t)) or t[0] < 0 or np.any(np.diff(t) < 0):
         raise InvalidParameter(f"t must be finite, >= 0 and increasing, got {t[0]:g} ... {t[-1]:g}")
+    if t[-1] > checks.LONGEST_TIME:
+        raise InvalidParameter(f"t must be <= {checks.LONGEST_TIME:g}, got {t[-1]:g}")
     return t
