@@ -11,12 +11,13 @@ import numpy as np
 
 from simc_core.loop import Loop
 from simc_core.simulation import Scenario, TimeResponse, simulate
-from simc_core.simulation.actuation import SAME, Actuation, Course, Inputs, tracking_time
+from simc_core.simulation.actuation import SAME, STEPS, Actuation, Course, Inputs, tracking_time
 from simc_core.simulation.saturation import actuated
 from simc_core.simulation.simulate import on_grid, times
 from simc_core.stability import stability
 
 MOST_DOUBLINGS = 3
+MANY_STEPS = 2 * STEPS  # a course of more has a step that does not grow with the horizon, and is not doubled
 STILL = 0.02  # a response that moves less than this part of its range over the last fifth has come to rest
 FINE = 4000  # instants for the integral of the linear |e|: trapezoids, good to 1e-5
 
@@ -88,7 +89,7 @@ def _long_enough(loop: Loop, scenario: Scenario, quiet: Actuation, stable: bool)
     if scenario.t_end is not None or scenario.disturbance_time is not None or not stable:
         return inputs, course
     for _ in range(MOST_DOUBLINGS):
-        if _at_rest(course, inputs):
+        if _at_rest(course, inputs) or len(course.y) > MANY_STEPS:
             break
         inputs = replace(inputs, disturbance_time=2 * inputs.disturbance_time, t_end=2 * inputs.t_end)
         course = actuated(loop, quiet, inputs)

@@ -77,7 +77,7 @@ class _Segments:
         self.noise = sum(part.noise for part in parts)
         slope = sum(part.slope for part in parts)
         room = np.abs(self.fa) + np.abs(self.fb) - 2 * self.noise
-        with np.errstate(over="ignore"):  # no room at all: the segment is split for ever, or f is zero there
+        with np.errstate(over="ignore"):  # no room: infinite, and split into MOST_PIECES
             self.excess = slope * (b - a) / np.maximum(room, np.finfo(float).tiny)
 
     def zero(self) -> float | None:

@@ -15,7 +15,7 @@ from simc_core.loop import Loop
 from simc_core.simulation.blocks import Blocks, Linear
 
 STEPS = 5000  # at least; more where theta or h is short against the horizon
-MOST_STEPS = 100_000  # about a second where theta is so short that every step is one of Python
+MOST_STEPS = 50_000  # about 0.7 s where theta is so short that every step is one of Python
 LONGEST_BLOCK = 80  # steps: beyond it the Toeplitz matrix costs more than it saves
 SAME = 1e-9  # relative; instants closer than this to the grid are on it
 MOST_JUMPS = 1000  # of a course that are shown as jumps
@@ -133,17 +133,26 @@ def tracking_time(loop: Loop, actuation: Actuation) -> float:
     return abs(form.Kp / form.Ki) if form.Kp else 1 / abs(form.Ki * loop.plant.k)
 
 
+def arrival(system: Linear, dt: float, theta: float, inputs: Inputs) -> tuple[int, np.ndarray | None, int]:
+    """When d reaches the plant: in which step, what it adds to the state at the end of it, the first whole step.
+
+    None where d comes just with a step, which is then the first whole one.
+    """
+    arrives = (inputs.disturbance_time + theta) / dt
+    first = round(arrives) if abs(arrives - round(arrives)) < SAME * arrives else math.floor(arrives)
+    rest = max(first + 1 - arrives, 0.0) * dt  # of step `first`, d acts on this last part
+    if rest >= dt * (1 - SAME):
+        return first, None, first
+    return first, system.hold(rest)[1] * inputs.disturbance, first + 1
+
+
 class Driven:
     """The plant on its way through time: its state, and the disturbance that adds to the delayed u."""
 
     def __init__(self, system: Linear, steps: Blocks, dt: float, theta: float, inputs: Inputs):
         self.system, self.steps = system, steps
         self.d, self.x = inputs.disturbance, np.zeros(len(system.B))
-        arrives = (inputs.disturbance_time + theta) / dt
-        self.first = round(arrives) if abs(arrives - round(arrives)) < SAME * arrives else math.floor(arrives)
-        rest = max(self.first + 1 - arrives, 0.0) * dt  # of step `first`, d acts on this last part
-        self.kick = system.hold(rest)[1] * self.d if rest < dt * (1 - SAME) else None
-        self.whole = self.first if self.kick is None else self.first + 1  # first step that d acts on wholly
+        self.first, self.kick, self.whole = arrival(system, dt, theta, inputs)
 
     def end_of_block(self, now: int, wanted: int) -> int:
         """`wanted`, or earlier, where d begins to act or the longest block ends."""
@@ -157,12 +166,6 @@ class Driven:
             self.x = self.x + self.kick
             o[-1, 1] += self.system.C @ self.kick + self.system.D * self.d
         return o
-
-    def add(self, w: np.ndarray, step: tuple[np.ndarray, np.ndarray, np.ndarray]) -> np.ndarray:
-        """What w (2,) adds to the outputs (2, o) of the step just made, where it was not known before; theta = 0."""
-        moved = step[1] * w[0] + step[2] * w[1]
-        self.x = self.x + moved
-        return np.array([self.system.D * w[0], self.system.C @ moved + self.system.D * w[1]])
 
 
 def affordable(steps: float, why: str) -> int:

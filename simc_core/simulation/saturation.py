@@ -13,6 +13,8 @@ Only the scalar law above is stepped in Python.
 """
 
 import math
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from scipy.signal import lfilter
@@ -29,6 +31,7 @@ from simc_core.simulation.actuation import (
     Driven,
     Inputs,
     affordable,
+    arrival,
     course,
     tracking_time,
 )
@@ -53,28 +56,73 @@ def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inp
     dt = theta / m if m else inputs.t_end / STEPS
     N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
     ask, rate = _known(form, actuation, inputs.setpoint, dt, N)
-    step = system.ramp(dt)
-    plant = Driven(system, blocks(system, step, min(m, LONGEST_BLOCK) or 1), dt, theta, inputs)
     law = _Law(actuation, dt / 2, tracking_time(loop, actuation))
+    run = partial(_delayed, m) if m else _undelayed
+    return course(dt, *run(system, form.Ki, law, inputs, dt, ask, rate), dt)
+
+
+def _delayed(m: int, system: Linear, Ki: float, law: "_Law", inputs: Inputs, dt: float, ask, rate):
+    """y, v, u at starts and ends of the steps, (N, 2) each, where u takes m steps to the plant."""
+    plant = Driven(system, blocks(system, system.ramp(dt), min(m, LONGEST_BLOCK)), dt, m * dt, inputs)
+    N = len(ask)
     y, v, u = np.zeros((N, 2)), np.zeros((N, 2)), np.zeros((N, 2))
     now = 0
     while now < N:
-        until = plant.end_of_block(now, N)
-        delayed = np.zeros((until - now, 2))
-        if m and until > m:
-            delayed[max(m - now, 0) :] = u[max(now - m, 0) : until - m]
-        o = plant(delayed, now)
+        until = plant.end_of_block(now, min(N, now + m))
+        late = np.zeros((until - now, 2))
+        if until > m:
+            late[max(m - now, 0) :] = u[max(now - m, 0) : until - m]
+        o = plant(late, now)
         here = slice(now, until)
-        proportional, integral = ask[here] - o[:, :, 1], rate[here] - form.Ki * o[:, :, 2]
-        if m:
-            v[here] = law(proportional, integral)
-            u[here] = v[here].clip(actuation.u_min, actuation.u_max)
-        else:
-            v[now], u[now] = law.implicit(proportional[0], integral[0], system, step, form.Ki)
-            o[0] += plant.add(u[now], step)
+        v[here] = law(ask[here] - o[:, :, 1], rate[here] - Ki * o[:, :, 2])
+        u[here] = v[here].clip(law.low, law.high)
         y[here] = o[:, :, 0]
         now = until
-    return course(dt, y, v, u, dt)
+    return y, v, u
+
+
+def _undelayed(system: Linear, Ki: float, law: "_Law", inputs: Inputs, dt: float, ask, rate):
+    """The same for theta = 0: outputs at both ends of a step are affine in u there, and u answers to them at once."""
+    (Phi, G1, G2), C, D, n = system.ramp(dt), system.C, system.D, len(system.B)
+    N, moved = len(ask), np.concatenate([C, C @ Phi, Phi])
+    extra = np.zeros((N, 2, 3))  # what d adds to the outputs
+    first, kick, whole = arrival(system, dt, 0.0, inputs)
+    extra[whole:] = inputs.disturbance * np.stack([D, C @ (G1 + G2) + D])
+    push = np.zeros((N, n))
+    push[whole:] = inputs.disturbance * (G1 + G2)
+    if kick is not None and first < N:
+        extra[first, 1], push[first] = C @ kick + D * inputs.disturbance, kick
+    ask, rate = (ask - extra[:, :, 1]).tolist(), (rate - Ki * extra[:, :, 2]).tolist()
+    answer = _Answer(*D.tolist(), *(C @ G1).tolist(), *(C @ G2 + D).tolist(), Ki)
+    x, free, v, u = np.zeros(n), [], [], []
+    for j in range(N):
+        out = moved @ x
+        y0, p0, i0, y1, p1, i1 = out[:6].tolist()
+        asked, (a, b) = law.implicit(answer, *ask[j], *rate[j], p0, i0, p1, i1)
+        x = out[6:] + (G1 * a + G2 * b + push[j])
+        free.append((y0, y1))
+        v.append(asked)
+        u.append((a, b))
+    u = np.array(u)
+    y = np.array(free) + extra[:, :, 0]
+    y[:, 0] += D[0] * u[:, 0]
+    y[:, 1] += answer.y_first * u[:, 0] + answer.y_last * u[:, 1]
+    return y, np.array(v), u
+
+
+class _Answer(NamedTuple):
+    """What u at the start (jump, first) and at the end (last) of a step adds to y, Kp yF + Kd yF' and yF."""
+
+    y_jump: float
+    p_jump: float
+    i_jump: float
+    y_first: float
+    p_first: float
+    i_first: float
+    y_last: float
+    p_last: float
+    i_last: float
+    Ki: float
 
 
 def _known(
@@ -129,21 +177,19 @@ class _Law:
         self.integral = integral
         return np.array(asked)
 
-    def implicit(self, ask, rate, system: Linear, step, Ki: float) -> tuple[tuple, tuple]:
-        """v and u for one step without dead time, where y at the end answers to u there, and jumps with it."""
-        _, G1, G2 = step
-        slope = system.D[1]
-        free = ask[0] + self.integral
-        first = min(max(free / (1 + slope), self.low), self.high)
-        v = free - slope * first
-        from_first, from_last = system.C @ G1, system.C @ G2 + system.D
-        rate_sum = rate.sum() - Ki * (system.D[2] + from_first[2]) * first
-        integral = self.integral + self.half * rate_sum + self.pull * (first - v)
-        w = ask[1] - from_first[1] * first + integral
-        answer = from_last[1] + self.half * Ki * from_last[2]
-        last = min(max(w / (1 + answer), self.low), self.high)
-        after = (w - answer * last + self.pull * last) / (1 + self.pull)
-        self.integral = after - ask[1] + from_first[1] * first + from_last[1] * last
+    def implicit(self, to: _Answer, ask0, ask1, rate0, rate1, p0, i0, p1, i1) -> tuple[tuple, tuple]:
+        """v and u for one step without dead time; p, i: the outputs at its ends as they would be with u = 0."""
+        low, high, pull, half = self.low, self.high, self.pull, self.half
+        free = ask0 - p0 + self.integral
+        first = min(max(free / (1 + to.p_jump), low), high)
+        v = free - to.p_jump * first
+        rates = rate0 + rate1 - to.Ki * (i0 + i1 + (to.i_jump + to.i_first) * first)
+        known = ask1 - p1 - to.p_first * first
+        w = known + self.integral + half * rates + pull * (first - v)
+        answer = to.p_last + half * to.Ki * to.i_last
+        last = min(max(w / (1 + answer), low), high)
+        after = (w - answer * last + pull * last) / (1 + pull)
+        self.integral = after - known + to.p_last * last
         return (v, after), (first, last)
 
 

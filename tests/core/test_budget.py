@@ -51,7 +51,7 @@ def test_frequencies(omega, words):
 
 
 def test_saturation_with_a_dead_time_far_below_the_horizon():
-    with pytest.raises(InvalidParameter, match=r"100000 steps for a dead time of 1e-09, got 1e[+]15"):
+    with pytest.raises(InvalidParameter, match=r"50000 steps for a dead time of 1e-09, got 1e[+]15"):
         simulate(Loop(Plant(1, 1e-9, (8,)), SeriesPid(4, 8)), Scenario(t_end=1e6, u_max=1.0))
 
 
