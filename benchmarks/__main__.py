@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.recompute import FREQUENCIES, POINTS, keep, median_times, peer, pin
 from simc_core import Loop, Plant, Scenario, SeriesPid, frequency_response, margins, performance, simulate
-from simc_core.simulation.simulate import times
+from simc_core.simulation.horizon import times
 
 CASES = {
     "FOPDT, lag dominant": Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)),

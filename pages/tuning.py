@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common import guards, header, live, state
+from pages.common.actuator_view import actuator_view, mark
 from pages.common.design_table import design_table, pin_button, pinned_studies
 from pages.common.model_error_view import model_error_view
 from pages.common.panels import open_loop, panels
@@ -10,14 +11,16 @@ from pages.common.readout import readout
 from pages.common.study import study
 from pages.common.tuning_widgets import settings, structure, tau_c_control
 
-VIEWS = ("Live", "Figures", "Bode of L", "Model error", "Compare")
+VIEWS = ("Live", "Figures", "Bode of L", "Model error", "Actuator", "Compare")
 
 design = header.show("tuning")
 with guards.spoken():
     present = study(design.plant, design.tuning)
+    mark(design.actuator, "narrow")
     with st.container(key="tuning"):
         controls, view = st.columns([4, 11], gap="medium")
     with controls:
+        mark(design.actuator, "wide")
         tau_c_control(present.model, present.tau_c, slider=state.widget("views", VIEWS[0]) != VIEWS[0])
         structure()
         settings(present)
@@ -25,7 +28,7 @@ with guards.spoken():
         guards.show(present)
     with view:
         studies = [("present", present), *pinned_studies(design.plant, design.pins)]
-        instrument, figures, bode, error, table = st.tabs(
+        instrument, figures, bode, error, built, table = st.tabs(
             VIEWS, key="views", on_change="rerun"
         )  # only the open one is made
         if instrument.open:
@@ -41,6 +44,9 @@ with guards.spoken():
         if error.open:
             with error:
                 model_error_view(present)
+        if built.open:
+            with built:
+                actuator_view(present, design.actuator)
         if table.open:
             with table:
                 design_table(studies)

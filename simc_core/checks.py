@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterable
 from numbers import Real
 
+import numpy as np
+
 from simc_core.errors import InvalidParameter
 
 LONGEST_TIME = 1e9  # largest time constant or dead time, and inverse of the smallest
@@ -80,6 +82,17 @@ def items(name: str, values, most: int = MOST_FACTORS) -> tuple:
     if len(given) > most:
         raise InvalidParameter(f"{name} may have at most {most} entries, got {len(given)}")
     return given
+
+
+def array(name: str, values, most: int) -> np.ndarray:
+    """`values` as an array of floats, shape (n,), 1 <= n <= most; one number is an array of one."""
+    try:
+        found = np.atleast_1d(np.asarray(values, dtype=float))
+    except (TypeError, ValueError):
+        raise InvalidParameter(f"{name} must be a list of numbers, got {_shown(values)}") from None
+    if found.ndim != 1 or not 1 <= found.size <= most:
+        raise InvalidParameter(f"{name} must be a list of 1 to {most} numbers, got shape {found.shape}")
+    return found
 
 
 def _shown(value) -> str:

@@ -18,10 +18,13 @@ from functools import lru_cache, singledispatch
 
 import numpy as np
 
+from simc_core import checks
 from simc_core.controllers import Controller
 from simc_core.errors import InvalidParameter
 from simc_core.factors import Factored
 from simc_core.plant import Plant
+
+MOST_FREQUENCIES = 1_000_000  # of one call, about 0.1 s
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +75,12 @@ def frequency_response(loop: Loop, omega) -> FrequencyResponse:
 
 
 def at_frequencies(omega) -> np.ndarray:
-    """omega as an array of shape (n,). Raises InvalidParameter where these are not positive finite numbers."""
-    omega = np.atleast_1d(np.asarray(omega, dtype=float))
-    if omega.ndim != 1 or not np.all(np.isfinite(omega)) or not np.all(omega > 0):
-        raise InvalidParameter(f"omega must be positive and finite, one-dimensional, got shape {omega.shape}")
+    """omega as an array of shape (n,).
+
+    Raises InvalidParameter where these are not positive finite numbers, or more than MOST_FREQUENCIES.
+    """
+    omega = checks.array("omega", omega, MOST_FREQUENCIES)
+    wrong = omega[~(np.isfinite(omega) & (omega > 0))]
+    if wrong.size:
+        raise InvalidParameter(f"omega must be positive and finite, got {wrong[0]:g}")
     return omega

@@ -1,78 +1,255 @@
-"""Numbers that others printed or that have a closed form, beside the function of this library that gives them.
+"""Numbers that others printed, that follow by hand, or that were computed in many digits by another method.
 
-The Accuracy page computes them while you watch; the tests hold every published number, these are the ones to show.
+Each beside the function of this library that gives it. The Accuracy page computes them while you watch.
 """
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache, partial
 
 import numpy as np
 
-from simc_core.controllers import IController, SeriesPid
+from simc_core.cascade_design import synthesis_cascade
+from simc_core.controllers import Controller, IController, ParallelPid, SeriesPid
+from simc_core.errors import SimcError
 from simc_core.half_rule import half_rule
 from simc_core.loop import Loop
 from simc_core.margins import margins
+from simc_core.nested import CascadeLoop
 from simc_core.performance import performance
 from simc_core.plant import Plant
+from simc_core.reference_values import (
+    DOUBLE_INTEGRATING,
+    FIRST_ORDER,
+    INTEGRATING,
+    MARGIN_CASES,
+    PURE_DELAY,
+    STEP_METRICS,
+    TIME_CASES,
+    TimeCase,
+)
 from simc_core.simc import simc
 from simc_core.simulation import Scenario, simulate
+from simc_core.stability import stability
+
+HAND, DIGITS = "by hand", "mpmath, 60 digits"
+TIME, METRICS, MARGINS = "Time responses", "Metrics of steps", "Margins"
+LIMITS, RULES, CASCADE = "Stability at the limit", "Half rule and settings", "Cascade"
+GROUPS = (TIME, METRICS, MARGINS, LIMITS, RULES, CASCADE)
+EXACT = 1e-9  # relative, or absolute below 1: what responses and margins promise
+INTEGRALS = 1e-8  # what metrics promise
+TIE = 0.005 + 1e-12  # half a printed digit where the exact number lies just between two
 
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """quantity of what: `expected` says the source, `compute` gives ours. tolerance: half a printed digit, or exact."""
+    """quantity of what: `expected` says the source, `compute` gives ours.
 
+    expected: a number, met within tolerance; or words, to be met exactly.
+    """
+
+    group: str
     what: str
     quantity: str
     source: str
-    expected: float
+    expected: float | str
     tolerance: float
-    compute: Callable[[], float]
+    compute: Callable[[], float | str]
+
+    @property
+    def exact(self) -> bool:
+        """Whether the expected value is known to more digits than any computer number has; printed ones are not."""
+        return not self.source.startswith("[")
 
 
-FIRST_ORDER = Loop(Plant(1, 1, (1,)), SeriesPid(0.5, 1))
-INTEGRATING = Loop(Plant(1, 1, integrators=1), SeriesPid(0.5, 8))
-DOUBLE_INTEGRATING = Loop(Plant(1, 1, integrators=2), SeriesPid(0.0625, 8, 8))
-PURE_DELAY = Loop(Plant(1, 1), IController(0.5))
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A reference computed now. difference: nan for words.   fault: why there is no number of ours, else empty."""
+
+    reference: Reference
+    ours: float | str
+    fault: str = ""
+
+    @property
+    def difference(self) -> float:
+        """Ours less the expected one."""
+        words = isinstance(self.reference.expected, str) or isinstance(self.ours, str)
+        return math.nan if words else self.ours - self.reference.expected
+
+    @property
+    def met(self) -> bool:
+        """Whether it is within the tolerance; nan is not, and neither is what could not be computed."""
+        if self.fault:
+            return False
+        if isinstance(self.reference.expected, str):
+            return self.ours == self.reference.expected
+        return abs(self.difference) <= self.reference.tolerance
+
+
+def check(reference: Reference) -> Check:
+    """Compute it; what the library refuses to compute is a fault, not an exception."""
+    try:
+        return Check(reference, reference.compute())
+    except SimcError as error:
+        return Check(reference, math.nan, str(error))
+
+
+def check_all() -> list[Check]:
+    """All references, computed now."""
+    _performance.cache_clear()
+    return [check(reference) for reference in REFERENCES]
+
+
+@lru_cache(maxsize=8)  # several rows show metrics of one loop; check_all begins with an empty one
+def _performance(loop: Loop | CascadeLoop):
+    return performance(loop)
+
+
+def _y(loop: Loop, t: float, load: bool = False) -> float:
+    scenario = Scenario(0.0 if load else 1.0, 1.0 if load else 0.0, 0.0, t=np.array([t]))
+    return float(simulate(loop, scenario).y[0])
+
+
+def _time_rows(case: TimeCase) -> list[Reference]:
+    loop = Loop(case.plant, case.controller)
+    return [
+        Reference(TIME, case.what, f"y({case.t:g}), {word}", DIGITS, expected, EXACT, partial(_y, loop, case.t, load))
+        for word, load, expected in (("set point", False, case.setpoint), ("load", True, case.load))
+    ]
+
+
 DELAYED_INTEGRATOR = Loop(Plant(1, 1), IController(2))  # L = 2 e^{-s}/s
+
+
+def _times() -> list[Reference]:
+    rows = [
+        Reference(TIME, "L = 2 e⁻ˢ/s", f"y({t:g}), set point", HAND, y, EXACT, partial(_y, DELAYED_INTEGRATOR, t))
+        for t, y in ((1.5, 1.0), (2.5, 2.5), (3.0, 2.0))
+    ]
+    return rows + [row for case in TIME_CASES for row in _time_rows(case)]
+
+
+LAG_DOMINANT = Loop(Plant(1, 1, (8,)), SeriesPid(4, 8))
+
+
+def _metrics() -> list[Reference]:
+    def row(what: str, loop: Loop, step: str, name: str, source: str, expected: float, tolerance: float) -> Reference:
+        shown = f"{name.replace('_', ' ')}, {'load' if step == 'disturbance' else 'set point'}"
+        return Reference(
+            *(METRICS, what, shown, source, expected, tolerance),
+            lambda: getattr(getattr(_performance(loop), step), name),
+        )
+
+    delay = "Pure dead time, tight"
+    rows = [
+        row(delay, PURE_DELAY, "setpoint", name, DIGITS, expected, INTEGRALS) for name, expected in STEP_METRICS.items()
+    ]
+    return [
+        *rows,
+        row(delay, PURE_DELAY, "setpoint", "IAE", "[SK03 Table 3]", 2.17, 0.005),
+        row("Lag dominant, tight", LAG_DOMINANT, "disturbance", "IAE", f"{HAND}: τI/Kc", 2.0, 2 * INTEGRALS),
+        row("Integrating, tight", INTEGRATING, "disturbance", "IAE", f"{HAND}: τI/Kc", 16.0, 16 * INTEGRALS),
+    ]
+
+
+def _margins() -> list[Reference]:
+    def row(what: str, loop: Loop, name: str, source: str, expected: float, tolerance: float) -> Reference:
+        shown = {"PM_deg": "PM, degrees", "delay_margin": "delay margin"}.get(name, name)
+        return Reference(MARGINS, what, shown, source, expected, tolerance, lambda: getattr(margins(loop), name))
+
+    first = "First order, tight"
+    rows = [
+        row(first, FIRST_ORDER, "GM", f"{HAND}: π", math.pi, EXACT * math.pi),
+        row(first, FIRST_ORDER, "PM_deg", f"{HAND}: 90 − 90/π", 90 - 90 / math.pi, EXACT * 61),
+        row(first, FIRST_ORDER, "delay_margin", f"{HAND}: π − 1", math.pi - 1, EXACT * 2),
+    ]
+    for what, (loop, values) in MARGIN_CASES.items():
+        rows += [
+            row(f"{what.capitalize()}, tight", loop, name, DIGITS, expected, EXACT * expected)
+            for name, expected in values.items()
+        ]
+    return [
+        *rows,
+        row(first, FIRST_ORDER, "Ms", "[SK03 Table 2]", 1.59, 0.005),
+        row("Integrating, tight", INTEGRATING, "Ms", "[SK03 Table 2]", 1.70, 0.005),
+        row("Double integrating, tight", DOUBLE_INTEGRATING, "Ms", "[SK03 Table 3]", 1.96, 0.005),
+    ]
+
+
+def _verdict(loop: Loop) -> str:
+    found = stability(loop)
+    poles = "∞" if math.isinf(found.unstable_poles) else f"{found.unstable_poles:g}"
+    return found.verdict if found.verdict != "unstable" else f"unstable, {poles} pole{'s' * (poles != '1')}"
+
+
+def _limits() -> list[Reference]:
+    def row(what: str, plant: Plant, controller: Controller, name: str, expected: str) -> Reference:
+        return Reference(LIMITS, what, name, HAND, expected, 0.0, lambda: _verdict(Loop(plant, controller)))
+
+    delay, unstable, around = Plant(1, 1), Plant(-1, 1, (-2,)), ((-1e-9, "(1 − 1e-9)"), (0.0, ""), (1e-9, "(1 + 1e-9)"))
+    integral = [("stable", "K = π/2"), ("marginal", "K = π/2"), ("unstable, 2 poles", "K = π/2")]
+    proportional = [("unstable, 1 pole", "k = 1"), ("marginal", "k = 1"), ("stable", "k = 1")]
+    rows = [
+        row("L = K e⁻ˢ/s", delay, IController(math.pi / 2 * (1 + off)), f"{name} {more}".strip(), verdict)
+        for (verdict, name), (off, more) in zip(integral, around, strict=True)
+    ]
+    rows.append(row("L = K e⁻ˢ/s", delay, IController(20), "K = 20", "unstable, 6 poles"))
+    rows += [
+        row("L = k e⁻ˢ/(2s − 1)", unstable, SeriesPid(1 + off, math.inf), f"{name} {more}".strip(), verdict)
+        for (verdict, name), (off, more) in zip(proportional, around, strict=True)
+    ]
+    neutral = ParallelPid(1, 0.1, 1.01)  # |L(inf)| = Kd/tau
+    rows.append(
+        row("Unfiltered D on a first-order lag", Plant(1, 1, (1,)), neutral, "|L(∞)| = 1.01", "unstable, ∞ poles")
+    )
+    return rows
+
+
 V06_1 = Plant(1, 3, (6, 4, 2))
 E2 = Plant(1, 0, (2, 1, 0.4, 0.2, 0.05, 0.05, 0.05), (-0.3, 0.08))
 E6 = Plant(1, 0, (1, 1, 0.028), (0.17, 0.17), 1)
 E12 = Plant(1, 0.3, (10, 8, 1), (6, 3))
 
 
-def _ideal(plant: Plant):
-    return simc(half_rule(plant, 2).model).to_ideal()
+def _rules() -> list[Reference]:
+    def row(what: str, name: str, source: str, expected: float, tolerance: float, compute: Callable) -> Reference:
+        return Reference(RULES, what, name, source, expected, tolerance, lambda: getattr(compute(), name))
+
+    def ideal():
+        return simc(half_rule(V06_1, 2).model).to_ideal()
+
+    return [
+        row("Example 1, PI", "Kc", "[V06]", 0.57, 0.005, lambda: simc(half_rule(V06_1).model)),
+        row("Example 1, ideal PID", "Kc", "[V06]", 1.38, TIE, ideal),
+        row("Example 1, ideal PID", "tau_D", "[V06]", 2.73, 0.005, ideal),
+        row("E2, first order", "theta", "[SK03 Table 4]", 1.47, 0.005, lambda: half_rule(E2).model),
+        row("E6, integrating with lag", "theta", "[SK03 Table 4]", 0.358, 5e-4, lambda: half_rule(E6, 2).model),
+        row("E12, two zeros", "k", "[SK03 Table 4]", 0.225, 5e-4, lambda: half_rule(E12).model),
+    ]
 
 
-def _y(t: float) -> float:
-    return float(simulate(DELAYED_INTEGRATOR, Scenario(disturbance=0, t=np.array([t]))).y[0])
-
-
-REFERENCES = (
-    Reference("V06 example 1, PI", "Kc", "[V06]", 0.57, 0.005, lambda: simc(half_rule(V06_1).model).Kc),
-    Reference("V06 example 1, ideal PID", "Kc", "[V06]", 1.38, 0.006, lambda: _ideal(V06_1).Kc),
-    Reference("V06 example 1, ideal PID", "tau_D", "[V06]", 2.73, 0.005, lambda: _ideal(V06_1).tau_D),
-    Reference("E2, first order", "theta", "[SK03 Table 4]", 1.47, 0.005, lambda: half_rule(E2).model.theta),
-    Reference("E6, integrating with lag", "theta", "[SK03 Table 4]", 0.358, 5e-4, lambda: half_rule(E6, 2).model.theta),
-    Reference("E12, two zeros", "k", "[SK03 Table 4]", 0.225, 5e-4, lambda: half_rule(E12).model.k),
-    Reference("First order, tight", "GM", "closed form", math.pi, 1e-12, lambda: margins(FIRST_ORDER).GM),
-    Reference("First order, tight", "PM", "closed form", 90 - 90 / math.pi, 1e-10, lambda: margins(FIRST_ORDER).PM_deg),
-    Reference("First order, tight", "Ms", "[SK03 Table 2]", 1.59, 0.005, lambda: margins(FIRST_ORDER).Ms),
-    Reference("Integrating, tight", "Ms", "[SK03 Table 2]", 1.70, 0.005, lambda: margins(INTEGRATING).Ms),
-    Reference("Double integrating, tight", "Ms", "[SK03 Table 3]", 1.96, 0.005, lambda: margins(DOUBLE_INTEGRATING).Ms),
-    Reference(
-        "Pure dead time, tight",
-        "IAE set point",
-        "[SK03 Table 3]",
-        2.17,
-        0.005,
-        lambda: performance(PURE_DELAY).setpoint.IAE,
-    ),
-    Reference(
-        "Integrating, tight", "IAE load", "tau_I/Kc", 16.0, 1e-7, lambda: performance(INTEGRATING).disturbance.IAE
-    ),
-    Reference("L = 2 e^{-s}/s", "y(2.5)", "closed form", 2.5, 1e-12, lambda: _y(2.5)),
-    Reference("L = 2 e^{-s}/s", "y(3)", "closed form", 2.0, 1e-12, lambda: _y(3.0)),
+PAIR_1 = (Plant(2, 2, (5,)), Plant(1, 1, (2, 3)))
+ROW_1A = CascadeLoop(
+    *PAIR_1, ParallelPid(0.5524, 0.1061, 0.4884, 0.1025, b=0.3), ParallelPid(3.3928, 0.8250, 3.7773, 0.0521)
 )
+
+
+def _cascade() -> list[Reference]:
+    def row(name: str, expected: float, tolerance: float, compute: Callable[[], float]) -> Reference:
+        return Reference(CASCADE, "Pair 1, row a", name, "[PSB]", expected, tolerance, compute)
+
+    def outer():
+        return synthesis_cascade(*PAIR_1, 2.0, 2.0, lambda_inner=1.04275, lambda_outer=2.05).outer
+
+    return [
+        row("IAE of d1", 9.47, 0.005, lambda: _performance(ROW_1A).disturbance.IAE),
+        row("IAE of d2", 2.31, 0.005, lambda: _performance(ROW_1A).disturbance2.IAE),
+        row("Msa", 2.0, 0.05, lambda: margins(ROW_1A.outer_loop).Ms),
+        row("Msb", 2.0, 0.05, lambda: margins(ROW_1A.inner_loop).Ms),
+        row("k of Ca at λ = 2.05", 0.5524, 5e-4, lambda: outer().Kp),
+        row("ki of Ca at λ = 2.05", 0.1061, 1e-4, lambda: outer().Ki),
+    ]
+
+
+REFERENCES = (*_times(), *_metrics(), *_margins(), *_limits(), *_rules(), *_cascade())

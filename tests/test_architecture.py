@@ -18,16 +18,10 @@ ORDER = [
     {"characteristic", "term_table", "segments"},
     {"segment_bounds", "winding", "logresponse", "search_grid", "crossings"},
     {"stability", "poles", "margins", "laurent", "nested"},
-    {
-        "half_rule",
-        "simulation",
-        "piece_zeros",
-        "metrics",
-        "model_error",
-    },  # the half rule judges its candidates by their Ms
-    {"performance", "robustness"},
+    {"half_rule", "simulation", "piece_zeros", "metrics", "model_error"},  # the half rule judges by Ms
+    {"performance", "robustness", "as_built"},
     {"sweep", "tau_table", "cascade", "direct_synthesis", "fastest", "cascade_design", "nested_performance"},
-    {"examples", "references", "cascade_examples"},
+    {"examples", "reference_values", "references", "cascade_examples"},
 ]
 LEVEL = {name: level for level, names in enumerate(ORDER) for name in names}
 

@@ -3,9 +3,10 @@
 Pure Python, no streamlit. links.py writes a Design as an address, project.py as a file, state.py keeps one a session.
 """
 
+import math
 from dataclasses import dataclass, field
 
-from simc_core import Plant, checks
+from simc_core import Plant, Scenario, checks
 from simc_core.errors import InvalidParameter
 
 FORMS = ("series", "ideal", "parallel")
@@ -45,6 +46,56 @@ class Tuning:
     def kind(self) -> str:
         """PI or PID, which follows from the order of the model."""
         return KINDS[self.order - 1]
+
+
+@dataclass(frozen=True, slots=True)
+class Actuator:
+    """How the loop is built, and what is asked of it there: see simc_core Actuation; None for no limit.
+
+    tracking_time: None for the default.   h: sampling period of the controller as built; Tuning.h is the one that the
+    half rule allows for.   setpoint, disturbance: heights of the steps, which matter where u has limits.
+    """
+
+    u_min: float | None = None
+    u_max: float | None = None
+    tracking_time: float | None = None
+    noise: float = 0.0
+    seed: int = 0
+    h: float = 0.0
+    setpoint: float = 1.0
+    disturbance: float = 1.0
+
+    def __post_init__(self):
+        put = object.__setattr__
+        for name in ("u_min", "u_max"):
+            if getattr(self, name):
+                put(self, name, checks.gain(name, getattr(self, name)))
+        if self.tracking_time is not None:
+            put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
+        scenario = self.scenario  # which checks what it is made of
+        for name in ("noise", "seed", "h", "setpoint", "disturbance"):
+            put(self, name, getattr(scenario, name))
+
+    @property
+    def scenario(self) -> Scenario:
+        """The steps with all of this."""
+        u_min = -math.inf if self.u_min is None else self.u_min
+        u_max = math.inf if self.u_max is None else self.u_max
+        return Scenario(
+            self.setpoint,
+            self.disturbance,
+            u_min=u_min,
+            u_max=u_max,
+            tracking_time=self.tracking_time,
+            noise=self.noise,
+            seed=self.seed,
+            h=self.h,
+        )
+
+    @property
+    def on(self) -> bool:
+        """Whether the loop as built is another one than the linear loop."""
+        return not self.scenario.actuation.linear
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +140,7 @@ class Design:
     form: str = "series"
     pins: tuple[Tuning, ...] = ()
     cascade: Cascade = field(default_factory=Cascade)
+    actuator: Actuator = field(default_factory=Actuator)
 
     def __post_init__(self):
         one_of("form", self.form, FORMS)

@@ -3,6 +3,7 @@
     plant, order, h, tau_c, b, filter, rules, form   the design itself; from h on only where not the default
     pins                                             order~h~tau_c~b~filter~rules, several separated by !
     Ga, Gb, method, inner, ...                       the cascade, only where it is not the default
+    u_min, u_max, T_t, noise, seed, sampling, r, d   the loop as built, only where it is not the default
 
 Numbers are written with all their digits, so that a link opens the very same design.
 """
@@ -29,6 +30,16 @@ CASCADE_FIELDS = {
     "Ms_inner": "Ms_inner",
     "Ms_outer": "Ms_outer",
     "b_outer": "b",
+}
+ACTUATOR_FIELDS = {
+    "u_min": "u_min",
+    "u_max": "u_max",
+    "T_t": "tracking_time",
+    "noise": "noise",
+    "seed": "seed",
+    "sampling": "h",
+    "r": "setpoint",
+    "d": "disturbance",
 }
 TEXTS = ("rules", "form", "method", "inner", "outer")
 PLANTS = ("plant", "Ga", "Gb")
@@ -91,6 +102,8 @@ def _flat(design: Design) -> dict[str, str]:
     flat |= {"form": design.form, "pins": "!".join(map(_pin_text, design.pins))}
     for name, field in CASCADE_FIELDS.items():
         flat[name] = _text(name, getattr(design.cascade, field))
+    for name, field in ACTUATOR_FIELDS.items():
+        flat[name] = _text(name, getattr(design.actuator, field))
     return flat
 
 
@@ -105,6 +118,8 @@ def _changed(design: Design, name: str, text: str) -> Design:
         return replace(design, tuning=replace(design.tuning, **{name: _read(name, text)}))
     if name in CASCADE_FIELDS:
         return replace(design, cascade=replace(design.cascade, **{CASCADE_FIELDS[name]: _read(name, text)}))
+    if name in ACTUATOR_FIELDS:
+        return replace(design, actuator=replace(design.actuator, **{ACTUATOR_FIELDS[name]: _read(name, text)}))
     raise SimcError("there is no parameter of this name")
 
 

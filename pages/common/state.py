@@ -18,7 +18,7 @@ import streamlit as st
 
 from pages.common import links
 from pages.common.design import Cascade, Design, Tuning
-from pages.common.links import CASCADE_FIELDS, TUNING_FIELDS, Ignored
+from pages.common.links import ACTUATOR_FIELDS, CASCADE_FIELDS, TUNING_FIELDS, Ignored
 from simc_core import Plant
 
 ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
@@ -67,6 +67,8 @@ def change(**values) -> None:
             design = replace(design, **{name: value})
         elif name in TUNING_FIELDS:
             design = replace(design, tuning=replace(design.tuning, **{name: value}))
+        elif name in ACTUATOR_FIELDS:
+            design = replace(design, actuator=replace(design.actuator, **{ACTUATOR_FIELDS[name]: value}))
         else:
             design = replace(design, cascade=replace(design.cascade, **{CASCADE_FIELDS[name]: value}))
     replace_design(design)
@@ -85,6 +87,8 @@ def value(name: str) -> Any:
         return getattr(design, name)
     if name in TUNING_FIELDS:
         return getattr(design.tuning, name)
+    if name in ACTUATOR_FIELDS:
+        return getattr(design.actuator, ACTUATOR_FIELDS[name])
     return getattr(design.cascade, CASCADE_FIELDS[name])
 
 
@@ -93,22 +97,25 @@ def bound(
     show: Callable = lambda value: value,
     read: Callable = lambda value: value,
     key: str | None = None,
+    optional: bool = False,
 ) -> dict[str, Any]:
     """Keyword arguments that tie a widget to a field: it shows the field and changes it.
 
     show: from the field to what the widget holds; read: back. A widget that gives None (an emptied selection)
-    leaves the field as it is. Values a widget can give must be within the field's bounds.
-    key: of the widget, where one field has several.
+    leaves the field as it is, or sets it to None where that is one of its values: optional. Values a widget can give
+    must be within the field's bounds.   key: of the widget, where one field has several.
     """
     key = key or f"widget_{name}"
     set_widget(key, show(value(name)))
-    return {"key": key, "on_change": _take, "args": (key, name, read)}
+    return {"key": key, "on_change": _take, "args": (key, name, read, optional)}
 
 
-def _take(key: str, name: str, read: Callable) -> None:
+def _take(key: str, name: str, read: Callable, optional: bool) -> None:
     given = st.session_state[key]
     if given is not None:
         change(**{name: read(given)})
+    elif optional:
+        change(**{name: None})
 
 
 def memory(name: str, start: Callable[[], Any]) -> Any:

@@ -5,4 +5,10 @@ from simc_core.figures.frequency import bode_figure, model_error_figure, open_lo
 from simc_core.figures.nyquist import nyquist_figure
 from simc_core.figures.palette import Figure, config
 from simc_core.figures.polezero import pole_zero_figure
-from simc_core.figures.time import input_figure, output_figure, plant_step_figure
+from simc_core.figures.time import (
+    built_input_figure,
+    built_output_figure,
+    input_figure,
+    output_figure,
+    plant_step_figure,
+)

@@ -131,6 +131,19 @@ def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None
     }
 
 
+def label(text: str, x: float, y: float, above: bool) -> dict[str, Any]:
+    """The name of a horizontal line, at its right end."""
+    return {
+        "text": text,
+        "x": x,
+        "y": y,
+        "xanchor": "right",
+        "yanchor": "bottom" if above else "top",
+        "showarrow": False,
+        "font": {"size": 11},
+    }
+
+
 def note(text: str, background: str = ALARM) -> dict[str, Any]:
     """A banner across the figure, for what the curves themselves must not be taken for."""
     return {

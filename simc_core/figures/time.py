@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from simc_core.as_built import AsBuilt
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.plant_step import PlantStep
@@ -16,6 +17,7 @@ from simc_core.simulation import TimeResponse
 Curves = Sequence[tuple[str, TimeResponse]]
 FAR = 10.0  # a response that leaves this many steps is growing: the view stays where the eye can read
 VIEW = (-4.0, 6.0)
+NEAR = 0.5  # of the range of u: a limit farther away than this would only flatten the curves
 
 
 def output_figure(curves: Curves, height: int | None = None, stable: bool = True) -> Figure:
@@ -41,6 +43,34 @@ def plant_step_figure(step: PlantStep, model: PlantStep | None = None, height: i
         for (name, record), style in zip(found, palette.FULL_AND_REDUCED, strict=False)
     ]
     return _figure(traces, "y  [unit of y]", height, stable=True)
+
+
+def built_output_figure(found: AsBuilt, height: int | None = None) -> Figure:
+    """y(t) of the loop as built over that of the linear loop, dashed, and without anti-windup, dotted."""
+    return output_figure(_as_built(found), height, found.numbers is not None)
+
+
+def built_input_figure(found: AsBuilt, height: int | None = None) -> Figure:
+    """u(t) in the same way, between the limits of the actuator."""
+    curves = _as_built(found)
+    u = np.concatenate([record.u for _, record in curves])
+    low, high = float(u.min()), float(u.max())
+    room = NEAR * (high - low)
+    t = found.built.t[[0, -1]]
+    limits = [
+        palette.line(t, [bound, bound], name, palette.NEUTRAL, "solid", 1.2, hoverinfo="skip", showlegend=False)
+        for name, bound in (("u min", found.actuation.u_min), ("u max", found.actuation.u_max))
+        if low - room <= bound <= high + room
+    ]
+    names = [palette.label(line["name"], float(t[-1]), float(line["y"][0]), line["name"] == "u max") for line in limits]
+    figure = _figure([*limits, *_signals(curves, "u", palette.U)], "u  [unit of u]", height, found.numbers is not None)
+    figure["layout"]["annotations"] = [*figure["layout"]["annotations"], *names]
+    return figure
+
+
+def _as_built(found: AsBuilt) -> Curves:
+    curves = [("as built", found.built), ("linear", found.linear)]
+    return curves if found.unprotected is None else [*curves, ("no anti-windup", found.unprotected)]
 
 
 def _signals(curves: Curves, field: str, color: str) -> list[Trace]:

@@ -5,12 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from simc_core.errors import InvalidParameter
 from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.simulation.elements import P
+from simc_core.simulation.horizon import round_up
 from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.scenario import Scenario
 from simc_core.simulation.several_delays import steps_of
-from simc_core.simulation.simulate import grid, held, left_limits, round_up, simulate
+from simc_core.simulation.simulate import simulate
+from simc_core.simulation.superposition import superposed
 
 SETTLED = 0.01  # of the largest value; where a default horizon ends
 BEGIN = 2.0  # first horizon, in units of all times of the loops together
@@ -71,24 +74,17 @@ def _(loop: CascadeLoop, scenario: Scenario | None = None) -> NestedResponse:
 @simulate.register
 def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
     scenario = scenario or Scenario()
+    if not scenario.actuation.linear:
+        raise InvalidParameter(
+            "u_min, u_max, noise and h must be left out for nested loops, whose limits are in simulation/windup.py, "
+            f"got {scenario.actuation}"
+        )
     N = len(loop.blocks)
     heights = np.zeros(1 + N)
     heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d
     starts, t_end = _times(loop, scenario, heights)
     pieces = steps_of(loop).run(t_end)
-    if scenario.t is not None:
-        t, left = scenario.t, None
-    else:
-        t, left = grid(pieces, heights, starts, t_end, scenario.points)
-    used = np.flatnonzero(heights)
-    outputs = np.zeros((len(t), 2 * N))
-    for i in used:
-        outputs += heights[i] * Pieces(pieces.edges, pieces.coefficients[..., i])(t - starts[i])
-    inputs = np.array([held(t, start, height) for start, height in zip(starts, heights, strict=True)])
-    if left is not None:
-        outputs[left] = sum((heights[i] * left_limits(pieces, t[left] - starts[i])[:, :, i] for i in used), 0.0)
-        for i in range(1 + N):
-            inputs[i, left[t[left] == starts[i]]] = 0.0
+    t, inputs, outputs = superposed(pieces, heights, starts, t_end, scenario)
     return NestedResponse(t, inputs[0], inputs[1:], outputs[:, :N].T, outputs[:, N:].T)
 
 

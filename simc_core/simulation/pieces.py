@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial import chebyshev
 
+TINY = 1e-300  # to the left of 0
 NEAR = 1e-12  # relative to t: an instant this close below an edge is the edge, where the right-hand limit holds
 
 
@@ -17,8 +18,11 @@ class Pieces:
     edges: np.ndarray
     coefficients: np.ndarray
 
-    def __call__(self, t) -> np.ndarray:
-        """Values at t (n,), shape (n, ...); zero before 0, right-hand limits at edges, the last value after the end."""
+    def __call__(self, t, left=()) -> np.ndarray:
+        """Values at t (n,), shape (n, ...); zero before 0, the last value after the end.
+
+        Right-hand limits at edges; left-hand ones where the indices `left` say so, for t in increasing order.
+        """
         t = np.asarray(t, dtype=float)
         if t.size > 1 and np.any(np.diff(t) < 0):
             order = np.argsort(t)
@@ -26,10 +30,13 @@ class Pieces:
             values[order] = self(t[order])
             return values
         degree, shape = self.coefficients.shape[1], self.coefficients.shape[2:]
-        at = np.searchsorted(self.edges, t * (1 + NEAR), side="right") - 1
+        seen = t * (1 + NEAR)
+        if len(left):
+            seen[left] = t[left] * (1 - NEAR) - TINY
+        at = np.searchsorted(self.edges, seen, side="right") - 1
         piece = np.clip(at, 0, len(self.coefficients) - 1)
-        left = self.edges[piece]
-        x = np.clip(2 * (t - left) / (self.edges[piece + 1] - left) - 1, -1.0, 1.0)
+        begin = self.edges[piece]
+        x = np.clip(2 * (t - begin) / (self.edges[piece + 1] - begin) - 1, -1.0, 1.0)
         basis, flat = chebyshev.chebvander(x, degree - 1), self.coefficients.reshape(-1, degree, math.prod(shape))
         values = np.empty((len(t), math.prod(shape)))
         cuts = [0, *(np.flatnonzero(np.diff(piece)) + 1).tolist(), len(t)]
@@ -38,17 +45,11 @@ class Pieces:
         values[at < 0] = 0.0
         return values.reshape(len(t), *shape)
 
+    def of_source(self, i: int) -> "Pieces":
+        """Where values are signals x sources: the responses to one of the sources."""
+        return Pieces(self.edges, self.coefficients[..., i])
+
     def ends(self) -> tuple[np.ndarray, np.ndarray]:
         """Values at the left and at the right end of each piece, (m, ...) both."""
         signs = (-1.0) ** np.arange(self.coefficients.shape[1])
         return np.tensordot(self.coefficients, signs, (1, 0)), self.coefficients.sum(axis=1)
-
-
-def clenshaw(coefficients: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """Chebyshev series coefficients (n, p, ...) at x (n,) each: (n, ...)."""
-    x = 2 * x.reshape(x.shape + (1,) * (coefficients.ndim - 2))
-    series = np.moveaxis(coefficients, 1, 0)
-    one, two = series[-1], 0.0
-    for term in series[-2:0:-1]:
-        one, two = term + x * one - two, one
-    return series[0] + x / 2 * one - two if len(series) > 1 else series[0]

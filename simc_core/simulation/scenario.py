@@ -7,8 +7,10 @@ import numpy as np
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
+from simc_core.simulation.actuation import Actuation
 
 MOST_POINTS = 100_000
+ACTUATION = ("u_min", "u_max", "tracking_time", "noise", "seed", "h")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -19,7 +21,7 @@ class Scenario:
     setpoint, disturbance: heights.   disturbance_time, t_end: None for half the horizon, and a horizon in which the
     slowest mode of the loop settles to 1 %.   points: instants on the grid; at a jump both limits are added.
     t: explicit increasing instants, returned exactly as given, right-hand limits at jumps.
-    u_min, u_max, tracking_time, noise, seed, h: see simulation/saturation.py; by default the loop is linear.
+    u_min, u_max, tracking_time, noise, seed, h: see Actuation; by default the loop is linear.
     """
 
     setpoint: float = 1.0
@@ -49,13 +51,14 @@ class Scenario:
         put(self, "points", checks.whole("points", self.points, 2, MOST_POINTS))
         if self.t is not None:
             put(self, "t", instants(self.t))
-        if not self.u_min < self.u_max:
-            raise InvalidParameter(f"u_min must be < u_max = {self.u_max:g}, got {self.u_min:g}")
-        if self.tracking_time is not None:
-            put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
-        put(self, "noise", checks.real("noise", self.noise, 0.0, checks.LARGEST_GAIN))
-        put(self, "seed", checks.whole("seed", self.seed, 0, 2**32 - 1))
-        put(self, "h", checks.optional_time("h", self.h))
+        actuation = self.actuation  # which checks what it is made of
+        for name in ACTUATION:
+            put(self, name, getattr(actuation, name))
+
+    @property
+    def actuation(self) -> Actuation:
+        """What stands between controller and plant."""
+        return Actuation(*(getattr(self, name) for name in ACTUATION))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -71,9 +74,9 @@ class TimeResponse:
 
 def instants(given) -> np.ndarray:
     """`given` as increasing instants >= 0, shape (n,). Raises InvalidParameter."""
-    t = np.asarray(given, dtype=float)
-    if t.ndim != 1 or not 1 <= t.size <= MOST_POINTS:
-        raise InvalidParameter(f"t must be a list of 1 to {MOST_POINTS} instants, got shape {t.shape}")
+    t = checks.array("t", given, MOST_POINTS)
     if not np.all(np.isfinite(t)) or t[0] < 0 or np.any(np.diff(t) < 0):
         raise InvalidParameter(f"t must be finite, >= 0 and increasing, got {t[0]:g} ... {t[-1]:g}")
+    if t[-1] > checks.LONGEST_TIME:
+        raise InvalidParameter(f"t must be <= {checks.LONGEST_TIME:g}, got {t[-1]:g}")
     return t

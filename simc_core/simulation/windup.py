@@ -22,7 +22,7 @@ from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.simulation.blocks import Linear
 from simc_core.simulation.nested import NestedResponse, horizon
 from simc_core.simulation.network import Network, integral_states, network
-from simc_core.simulation.simulate import held
+from simc_core.simulation.superposition import held
 
 STEPS, MOST_STEPS = 3000, 40_000
 ON_GRID = 1e-6  # of a step

@@ -129,7 +129,7 @@ def test_times_that_are_left_open():
     ("wrong", "says"),
     [
         ({"t": [1.0, 0.5]}, "increasing"),
-        ({"t": []}, "instants"),
+        ({"t": []}, "list of 1 to"),
         ({"t": [0.0, math.nan]}, "finite"),
         ({"t": [-1.0, 0.5]}, ">= 0"),
         ({"t_end": 0.0}, "t_end"),

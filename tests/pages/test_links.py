@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pages.common import links, project
-from pages.common.design import Cascade, Design, Tuning
+from pages.common.design import Actuator, Cascade, Design, Tuning
 from simc_core import Plant
 
 times = st.floats(1e-3, 1e3)
@@ -30,6 +30,17 @@ tunings = st.builds(
     rules=st.sampled_from(["2003", "1998"]),
 )
 cascades = st.builds(Cascade, primary=plants, secondary=plants, method=st.sampled_from(["simc", "synthesis"]))
+actuators = st.builds(
+    Actuator,
+    u_min=st.none() | st.floats(-1e3, -1e-3) | st.just(0.0),
+    u_max=st.none() | times,
+    tracking_time=st.none() | times,
+    noise=st.just(0.0) | times,
+    seed=st.integers(0, 2**32 - 1),
+    h=st.just(0.0) | times,
+    setpoint=st.floats(-10, 10),
+    disturbance=st.floats(-10, 10),
+)
 designs = st.builds(
     Design,
     plant=plants,
@@ -37,6 +48,7 @@ designs = st.builds(
     form=st.sampled_from(["series", "ideal", "parallel"]),
     pins=st.lists(tunings, max_size=4).map(tuple),
     cascade=cascades,
+    actuator=actuators,
 )
 
 
@@ -78,6 +90,14 @@ def test_the_address_of_the_default_is_short():
         ("pins", "1~2", "6 values"),
         ("pins", "!".join(["1~0~2~1~0~2003"] * 5), "at most 4"),
         ("Ms_inner", "0.5", ">= 1.05"),
+        ("u_min", "0.5", "u_min <= 0"),
+        ("u_min", "-inf", "finite"),
+        ("u_max", "1e-15", "1e-12"),
+        ("T_t", "0", "tracking_time must not be zero"),
+        ("noise", "-1", ">= 0"),
+        ("seed", "1.5", "whole"),
+        ("sampling", "nan", "finite"),
+        ("r", "1e20", "<= 1e+12"),
         ("method", "magic", "simc, synthesis"),
         ("colour", "red", "no parameter"),
         ("plant", "1" * 5000, "2000 characters"),

@@ -18,7 +18,7 @@ from simc_core.models import Model, UnstableDelay
 from simc_core.plant import Plant
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
-from simc_core.simulation.simulate import settling_horizon
+from simc_core.simulation.horizon import settling_horizon
 from simc_core.stability import stability
 from simc_core.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
 from simc_core.tau_table import Rows, first_rows, kinks, refined
