@@ -45,8 +45,8 @@ class Levels:
         size = np.abs(chain.modes)
         self.unit = chain.theta or float(1 / np.max(size) if size.any() else 1.0)
         self._made: dict[int, Level] = {}
-        parts = np.repeat(mesh(chain.modes, chain.theta) / chain.theta, 2**finer) / 2**finer if chain.theta else ()
-        self.shape = tuple(float(part) for part in parts)
+        parts = (mesh(chain.modes, chain.theta) / chain.theta).tolist() if chain.theta else []
+        self.shape = tuple(part / 2**finer for part in parts for _ in range(2**finer))
         self.mesh = tuple(round(math.log2(part)) for part in self.shape)
         self._make(sorted({*self.mesh, *range(1, 1 + AHEAD)}))
 

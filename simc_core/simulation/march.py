@@ -20,6 +20,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.linalg.lapack import dgesv
 
 from simc_core.controllers import ParallelPid
 from simc_core.errors import InvalidParameter
@@ -179,7 +180,7 @@ class _Walk:
         right = made.B @ (known - feedback[:, :, :n] @ x)
         if self.theta:
             right += self.levels.history(before, level) @ (self.z[at, -P:] if before else self.z[at])
-        w = np.linalg.solve(EYE + made.B @ feedback[:, :, n:], right)
+        w = _solved(EYE + made.B @ feedback[:, :, n:], right)
         return self._answer(at, level, begin, xi, known, x, w)
 
     def _answer(self, at, level: int, begin: list[float], xi: np.ndarray, known: np.ndarray, x: np.ndarray, w):
@@ -268,3 +269,10 @@ class _Walk:
             self.mark[i], self.away_at_mark[i] = self.t[i], away
         self.at_rest[i] = rest
         return rest
+
+
+def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """matrix^-1 right, (k, P, P) and (k, P, 2); a single one without the detour that costs more than solving it."""
+    if len(matrix) == 1:
+        return dgesv(matrix[0], right[0])[2][None]
+    return np.linalg.solve(matrix, right)
