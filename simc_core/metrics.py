@@ -76,8 +76,8 @@ class Measures:
     settling_time: np.ndarray
 
 
-def measures(steps: Steps) -> Measures:
-    """All metrics of all responses."""
+def measures(steps: Steps, with_times: bool = True) -> Measures:
+    """All metrics of all responses; with_times: False leaves rise and settling times at nan."""
     m, half = len(steps.owner), steps.length / 2
     slopes = np.concatenate([steps.y @ SLOPE, steps.u @ SLOPE])
     turns = zeros(slopes, _alive(slopes, steps))
@@ -86,14 +86,8 @@ def measures(steps: Steps) -> Measures:
     peak, peak_time, opposite = _extremes(steps, of_y)
     e = -steps.y
     e[:, 0] += steps.target[steps.owner]
-    band = SETTLING * np.where(steps.target, 1.0, np.abs(peak))
-    levels = np.stack([*np.broadcast_arrays(*RISE, peak)[:2], steps.target - band, steps.target + band])
-    series = np.concatenate([e, *(steps.y,) * len(levels)])
-    series[m:, 0] -= levels[:, steps.owner].ravel()
-    wanted = np.concatenate([_alive(e, steps), np.ones(len(levels) * m, dtype=bool)])
-    found = zeros(series, wanted, of_y)
-    of_e, crossed = found[found.row < m], found[found.row >= m]
-    rise, settling = _times(steps, series[m:].reshape(len(levels), m, P), levels, crossed.row - m, crossed.x)
+    of_e = zeros(e, _alive(e, steps), of_y)
+    rise, settling = _times(steps, peak, of_y) if with_times else np.full((2, len(peak)), np.nan)
     IAE, ITAE = _absolute_integrals(steps, e, of_e)
     left, right = steps.u @ SIGNS, steps.u.sum(axis=1)
     TV = _variation(of_u.row, of_u.of(steps.u), left, right) + np.abs(left - steps.before(right, 0.0))
@@ -162,17 +156,18 @@ def _extremes(steps: Steps, at: Places) -> tuple[np.ndarray, np.ndarray, np.ndar
     return peak, time, np.where(peak > 0, -low, high)
 
 
-def _times(steps: Steps, shifted: np.ndarray, levels: np.ndarray, row: np.ndarray, x: np.ndarray):
-    """Rise time (nan for a load step) and settling time.
-
-    shifted: y less each of the four levels, (4, m, P): 10 %, 90 %, and both edges of the band.   row, x: its zeros.
-    """
-    _, m, _ = shifted.shape
-    left, right = shifted @ SIGNS, shifted.sum(axis=2)
+def _times(steps: Steps, peak: np.ndarray, turning: Places) -> tuple[np.ndarray, np.ndarray]:
+    """Rise time, 10 % to 90 %, nan for a load step; settling time, within 2 % of the step or of the load's peak."""
+    m, band = len(steps.owner), SETTLING * np.where(steps.target, 1.0, np.abs(peak))
+    levels = np.stack([*np.broadcast_arrays(*RISE, peak)[:2], steps.target - band, steps.target + band])
+    shifted = np.concatenate([steps.y] * len(levels))
+    shifted[:, 0] -= levels[:, steps.owner].ravel()
+    found = zeros(shifted, np.ones(len(shifted), dtype=bool), turning)
+    left, right = (shifted @ SIGNS).reshape(-1, m), shifted.sum(axis=1).reshape(-1, m)
     before = np.stack([steps.before(each, -level) for each, level in zip(right, levels, strict=True)])
     jumped = np.flatnonzero(left * before < 0)
-    kind, piece = np.divmod(np.concatenate([row, jumped]), m)
-    times = steps.time(piece, np.concatenate([x, np.full(len(jumped), -1.0)]))
+    kind, piece = np.divmod(np.concatenate([found.row, jumped]), m)
+    times = steps.time(piece, np.concatenate([found.x, np.full(len(jumped), -1.0)]))
     owner, rising = steps.owner[piece], kind < 2
     first = np.full((2, len(steps.first)), np.inf)
     np.minimum.at(first, (kind[rising], owner[rising]), times[rising])

@@ -54,14 +54,15 @@ class Course:
         end[self.first[1:] - 1] = np.inf
         low = np.searchsorted(t, begin * (1 - NEAR), side="left")
         high = np.searchsorted(t, end * (1 - NEAR), side="left")
-        keys = np.stack([begin, self.length, end], axis=1)
-        _, kind = np.unique(keys, axis=0, return_inverse=True)
-        for same in np.split(np.argsort(kind, kind="stable"), np.flatnonzero(np.diff(np.sort(kind))) + 1):
+        coinciding: dict[tuple[float, float, float], list[int]] = {}
+        for j, key in enumerate(zip(begin.tolist(), self.length.tolist(), end.tolist(), strict=True)):
+            if low[j] < high[j]:
+                coinciding.setdefault(key, []).append(j)
+        for same in coinciding.values():
             j = same[0]
             points = slice(low[j], high[j])
-            if low[j] < high[j]:
-                x = np.clip(2 * (t[points] - begin[j]) / self.length[j] - 1, -1.0, 1.0)
-                found[self.owner[same], :, :, points] = self.coefficients[same] @ chebyshev.chebvander(x, P - 1).T
+            x = np.clip(2 * (t[points] - begin[j]) / self.length[j] - 1, -1.0, 1.0)
+            found[self.owner[same], :, :, points] = self.coefficients[same] @ chebyshev.chebvander(x, P - 1).T
         return found
 
 
