@@ -1,4 +1,4 @@
-"""`make bench`, second part: the full recompute of a cascade against two single-loop recomputes of python-control.
+"""`make bench`, last part: the full recompute of a cascade against two single-loop recomputes of python-control.
 
 Ours: y1, y2 and u for r, d1 and d2 at 600 points, step metrics of all three, frequency responses of both loops at 400
 frequencies, margins of both and the verdict on stability, all with both dead times exact, nothing remembered. The
@@ -10,12 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from benchmarks.recompute import FREQUENCIES, POINTS, keep, median_times, peer, pin
+from benchmarks.recompute import FREQUENCIES, POINTS, forgotten, keep, median_times, peer, pin
 from simc_core import CascadeLoop, Loop, Scenario, frequency_response, margins, performance, simulate, stability
-from simc_core.cascade import closed, verdict
 from simc_core.cascade_examples import ROWS, designed
 from simc_core.simulation.nested import horizon
-from simc_core.simulation.several_delays import steps_of
 
 ORDER = 10
 RATIO = 4000
@@ -23,8 +21,7 @@ RATIO = 4000
 
 def ours(loop: CascadeLoop, t_end: float, omega: np.ndarray) -> None:
     """Everything about one cascade."""
-    for remembered in (steps_of, verdict, closed):
-        remembered.cache_clear()
+    forgotten()
     simulate(loop, Scenario(t_end=t_end, points=POINTS))
     frequency_response(loop.outer_loop, omega)
     frequency_response(loop.inner_loop, omega)

@@ -9,10 +9,16 @@ from pathlib import Path
 import control
 import numpy as np
 
-from simc_core import Loop
+from simc_core import Loop, cascade
 from simc_core.interop import closed_loop, to_tf
+from simc_core.loop import factored_plant
+from simc_core.simulation.levels import levels
+from simc_core.simulation.several_delays import steps_of
+from simc_core.simulation.simulate import settled
+from simc_core.stability import remembered
 
 ROUNDS = 9
+REMEMBERING = (factored_plant, levels, settled, remembered, steps_of, cascade.verdict, cascade.closed)
 POINTS, FREQUENCIES = 600, 400
 
 
@@ -45,6 +51,12 @@ def median_times(jobs: dict[str, Callable[[], object]]) -> dict[str, float]:
             job()
             taken[name].append(time.perf_counter() - start)
     return {name: float(np.median(values)) for name, values in taken.items()}
+
+
+def forgotten() -> None:
+    """Everything that is remembered between calls, of plants and of loops."""
+    for function in REMEMBERING:
+        function.cache_clear()
 
 
 def pin() -> None:

@@ -37,11 +37,11 @@ class Loop:
     @property
     def L(self) -> Factored:
         """Loop transfer function G C, exact dead time."""
-        return _factored(self.plant) * self.controller.factored
+        return factored_plant(self.plant) * self.controller.factored
 
 
 @lru_cache(maxsize=16)
-def _factored(plant: Plant) -> Factored:
+def factored_plant(plant: Plant) -> Factored:
     """One plant meets many controllers."""
     return plant.factored
 

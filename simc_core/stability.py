@@ -47,11 +47,11 @@ class Stability:
 @singledispatch
 def stability(loop: Loop) -> Stability:
     """Verdict on a single loop. Raises InvalidParameter where it is ill-posed, L(inf) = -1 without dead time."""
-    return _remembered(loop)
+    return remembered(loop)
 
 
 @lru_cache(maxsize=64)
-def _remembered(loop: Loop) -> Stability:
+def remembered(loop: Loop) -> Stability:
     """margins, performance and pages all ask for the same few loops."""
     return count_unstable([loop.L])
 
