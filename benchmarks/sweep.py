@@ -25,9 +25,7 @@ def main() -> None:
     """Print the tables and write the JSON."""
     pin()
     rows = []
-    print(
-        "\n| tuned over tau_c | 60 at once, ms | 60 times Pade(10), ms | ratio | largest difference from single results |"
-    )
+    print("\n| tuned over tau_c | 60 at once, ms | 60 times Pade(10), ms | ratio | difference from single results |")
     print("|---|---|---|---|---|")
     for name, (plant, order) in CASES.items():
         model = half_rule(plant, order).model
