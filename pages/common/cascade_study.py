@@ -1,12 +1,12 @@
 """From what the user has decided of a cascade to everything its page shows of it. Pure: no streamlit."""
 
-import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from pages.common.design import Cascade
 from simc_core.cascade import NestedStability
 from simc_core.cascade_design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
+from simc_core.cascade_examples import PairRow
 from simc_core.controllers import IController
 from simc_core.errors import NotStable, SimcError
 from simc_core.grid import omega_grid
@@ -139,6 +139,23 @@ def frequency_responses(study: CascadeStudy) -> tuple[FrequencyResponse, Frequen
     return frequency_response(study.loop.outer_loop, omega), frequency_response(study.loop.inner_loop, omega)
 
 
+def of_row(row: PairRow) -> Cascade:
+    """A design of the paper as the user's own; b as printed, else 1."""
+    asked = {f"Ms_{loop}": Ms for loop, Ms in (("inner", row.Ms_inner), ("outer", row.Ms_outer)) if Ms != USUAL_MS}
+    primary, secondary = row.blocks
+    return Cascade(
+        primary,
+        secondary,
+        row.method,
+        row.inner,
+        row.outer,
+        **(asked if row.method == "synthesis" else {}),
+        b=row.published.b if row.published else 1.0,
+        N_outer=row.N_outer or Cascade().N_outer,
+        filter_outer="zero" if row.N_outer is None else "N",
+    )
+
+
 def gain_in_IAE(study: CascadeStudy) -> tuple[float, float] | None:
     """IAE of d2 with the cascade and with one loop; None where one of them has none."""
     if study.performance is None or study.single is None or study.single.performance is None:
@@ -173,6 +190,9 @@ def _single(cascade: Cascade) -> tuple[SingleLoop | None, str]:
     return SingleLoop(loop, found), why
 
 
-def times_better(cascade: float, single: float) -> float:
-    """How many times smaller an IAE is with the cascade."""
-    return single / cascade if cascade else math.inf
+def attempt(cascade: Cascade) -> tuple[CascadeStudy | None, SimcError | None]:
+    """The study, or why there is none: the page keeps its controls either way."""
+    try:
+        return study(cascade), None
+    except SimcError as error:
+        return None, error
