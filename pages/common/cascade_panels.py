@@ -2,7 +2,6 @@
 
 import streamlit as st
 
-from pages.common.cascade_readout import sentence
 from pages.common.cascade_study import CascadeStudy, frequency_responses, responses, starts
 from pages.common.panels import Panel, field, show
 from simc_core.figures import (
@@ -17,7 +16,7 @@ from simc_core.figures.curves import bode_curve, nested_bode_curve
 from simc_core.margins import crossings
 from simc_core.notation import number
 
-HEIGHT, TALL = 225, 400  # px
+HEIGHT, TALL = 215, 400  # px
 
 
 def panels(study: CascadeStudy) -> None:
@@ -39,7 +38,6 @@ def panels(study: CascadeStudy) -> None:
         )
     )
     d1, d2 = starts(curves[0][1])
-    st.markdown(sentence(study))
     st.caption(
         f"Unit steps: set point at t = 0, $d_1$ at the input of $G_a$ at t = {number(d1)}, $d_2$ at the input of $G_b$ "
         f"at t = {number(d2)}; time in the unit of your time constants. Dashed: one PID controller for $G_a G_b$, "

@@ -18,11 +18,9 @@ KEPT = 8
 NAMES = {"both": "both protected", "inner": "inner only", "none": "no protection"}
 SHARE = 0.4  # of what u asks for beyond its final value: limits that bite, for a start
 EXPLAINED = (
-    "While u is at its limit the inner loop cannot follow, and both integrals go on adding up an error that nothing "
-    "answers: the inner one winds up against the actuator, the outer one against the inner set point $r_2$. "
-    "Back calculation in the inner controller cures the first alone; passed on to the outer one as the set point that "
-    "the inner loop could have followed, $r_2 + e/K_b$ with $e$ what the limit takes away, it cures both, "
-    "and control is handed back without a bump."
+    "While u is at a limit the inner loop cannot follow, and both controllers go on integrating an error that nothing "
+    "answers. Back calculation stops the inner one; the outer one stops too, and takes over without a bump, when it is "
+    "led back to the set point that the inner loop could have followed, $r_2 + e/K_b$, $e$ what the limit takes away."
 )
 
 
