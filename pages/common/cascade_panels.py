@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages.common.cascade_study import CascadeStudy, frequency_responses, responses, starts
+from pages.common.cascade_study import CascadeStudy, frequency_responses, starts, time_responses
 from pages.common.panels import Panel, field, show
 from simc_core.figures import (
     inner_output_figure,
@@ -21,7 +21,7 @@ HEIGHT, TALL = 215, 400  # px
 
 def panels(study: CascadeStudy) -> None:
     """y1, y2, u with the single loop behind them, and L of both loops."""
-    curves = responses(study)
+    curves = time_responses(study)
     stable = study.stability.verdict == "stable"
     judged = study.outer, study.inner
     field(

@@ -122,7 +122,7 @@ def designed(cascade: Cascade) -> CascadeDesign:
 
 
 @lru_cache(maxsize=KEPT)
-def responses(study: CascadeStudy) -> tuple[tuple[str, NestedResponse], ...]:
+def time_responses(study: CascadeStudy) -> tuple[tuple[str, NestedResponse], ...]:
     """Steps of r, then of d1, then of d2; of the single loop at the same instants, where it is stable."""
     first = simulate(study.loop, Scenario())
     found = [("cascade", first)]
