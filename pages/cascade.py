@@ -8,10 +8,18 @@ from pages.common.cascade_pairs import pairs_view
 from pages.common.cascade_panels import frequencies, panels
 from pages.common.cascade_readout import readout
 from pages.common.cascade_settings import settings
-from pages.common.cascade_study import attempt
+from pages.common.cascade_study import CascadeStudy, attempt
 from pages.common.cascade_windup import windup_view
 
-VIEWS = ("Figures", "Bode", "Settings", "Windup", "Paper's pairs")
+
+def figures(present: CascadeStudy) -> None:
+    """The strip and the field of four."""
+    readout(present)
+    panels(present)
+
+
+VIEWS = {"Figures": figures, "Bode": frequencies, "Settings": settings, "Windup": windup_view}
+PAIRS = "Paper's pairs"
 
 design = header.show("cascade")
 present, refusal = attempt(design.cascade)
@@ -32,24 +40,12 @@ with view:
     if refusal is not None:
         with guards.spoken():
             raise refusal
-        cascade_guards.offer_synthesis()
-    curves, bode, numbers, limits, pairs = st.tabs(
-        VIEWS, key="cascade_views", on_change="rerun"
-    )  # only the open one is made
+        cascade_guards.offer_synthesis(refusal)
+    *tabs, pairs = st.tabs((*VIEWS, PAIRS), key="cascade_views", on_change="rerun")  # only the open one is made
+    for tab, show in zip(tabs, VIEWS.values(), strict=True):
+        if tab.open and present is not None:
+            with tab, guards.spoken():
+                show(present)
     if pairs.open:
         with pairs:
             pairs_view()
-    if present is not None:
-        if curves.open:
-            with curves:
-                readout(present)
-                panels(present)
-        if bode.open:
-            with bode:
-                frequencies(present)
-        if numbers.open:
-            with numbers:
-                settings(present)
-        if limits.open:
-            with limits, guards.spoken():
-                windup_view(present)

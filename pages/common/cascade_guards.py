@@ -7,6 +7,7 @@ from pages.common.cascade_readout import separation, trouble
 from pages.common.cascade_study import CascadeStudy, speed_symbol
 from pages.common.guards import STYLE
 from pages.common.symbols import symbols
+from simc_core.errors import NotReducible, SimcError
 
 
 def show(study: CascadeStudy) -> None:
@@ -27,10 +28,11 @@ def show(study: CascadeStudy) -> None:
             st.caption(separation(study))
 
 
-def offer_synthesis() -> None:
-    """Where SIMC is asked for an unstable block: the method that is made for it, to click."""
+def offer_synthesis(refusal: SimcError) -> None:
+    """Where SIMC has no rule for a block: the method that is made for it, to click."""
     cascade = state.cascade()
-    if cascade.method == "simc" and (cascade.primary.unstable_poles or cascade.secondary.unstable_poles):
+    unstable = cascade.primary.unstable_poles or cascade.secondary.unstable_poles
+    if cascade.method == "simc" and (unstable or isinstance(refusal, NotReducible)):
         st.button(
             "Use direct synthesis",
             key="use_synthesis",

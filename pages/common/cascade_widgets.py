@@ -50,7 +50,8 @@ def blocks() -> None:
         key="pair",
         placeholder="The paper's ten pairs",
         label_visibility="collapsed",
-        help="The ten process pairs of Prelić, Šekara and Bošković, with the designs they print.",
+        help="The ten process pairs of Prelić, Šekara and Bošković, with the designs they print; PI or PID "
+        "outside, Ms inside · outside.",
         on_change=_take_pair,
     )
 
@@ -236,5 +237,6 @@ def _take_pair() -> None:
 
 
 def _title(row: PairRow) -> str:
-    how = "SIMC" if row.method == "simc" else f"Ms {row.Ms_inner:g} inside, {row.Ms_outer:g} outside"
-    return f"Pair {row.name.split()[0]}: {how}, {row.outer} outside"
+    if row.method == "simc":
+        return f"Pair {row.pair}, SIMC"
+    return f"Pair {row.name}, {row.outer}, Ms {row.Ms_inner:g} · {row.Ms_outer:g}"

@@ -21,6 +21,7 @@ STYLE = """<style>
 @media (max-width: 640px) {[data-testid="stMainBlockContainer"] {padding: 4rem 0.75rem 2rem}}
 .st-key-line {border-bottom: 1px solid var(--st-border-color); padding-bottom: 0.4rem}
 .st-key-line .katex {font-size: 1.15em}
+.st-key-line p {padding-block: 0.2rem} /* room for the exponent of a tall fraction */
 /* A transfer function wider than its place scrolls there, and leaves the page as it is. */
 [data-testid="stMain"] :is(p, .katex-display):has(> .katex) {overflow-x: auto; overflow-y: hidden}
 .st-key-line [data-testid="stElementContainer"] {max-width: 100%}

@@ -22,10 +22,7 @@ VIEW = (-4.0, 6.0)
 def output_figure(curves: Curves, height: int | None = None, stable: bool = True) -> Figure:
     """y(t) and the set point r(t), grey and dashed. stable=False: the figure says that the loop is not."""
     present = curves[0][1]
-    traces = [
-        palette.line(present.t, present.r, "r", palette.R, "dash", 1.4, hovertemplate="%{y:.4g}"),
-        *_signals(curves, "y", palette.Y),
-    ]
+    traces = [_reference(present.t, present.r, "r"), *_signals(curves, "y", palette.Y)]
     return _figure(traces, "y  [unit of y]", height, stable)
 
 
@@ -37,10 +34,7 @@ def input_figure(curves: Curves, height: int | None = None, stable: bool = True)
 def inner_output_figure(curves: NestedCurves, height: int | None = None, stable: bool = True) -> Figure:
     """y2(t) of cascades, and the set point r2 that the outer controller of the present one gives it."""
     present = curves[0][1]
-    traces = [
-        palette.line(present.t, present.r2, "r2", palette.R, "dash", 1.4, hovertemplate="%{y:.4g}"),
-        *_signals(curves, "y2", palette.INNER),
-    ]
+    traces = [_reference(present.t, present.r2, "r2"), *_signals(curves, "y2", palette.INNER)]
     return _figure(traces, "y2  [unit of y2]", height, stable)
 
 
@@ -57,6 +51,11 @@ def plant_step_figure(step: PlantStep, model: PlantStep | None = None, height: i
         for (name, record), style in zip(found, palette.FULL_AND_REDUCED, strict=False)
     ]
     return _figure(traces, "y  [unit of y]", height, stable=True)
+
+
+def _reference(t: np.ndarray, r: np.ndarray, name: str) -> Trace:
+    """A set point."""
+    return palette.line(t, r, name, palette.R, "dash", 1.4, hovertemplate="%{y:.4g}")
 
 
 def _signals(curves: Curves, field: str, color: str) -> list[Trace]:

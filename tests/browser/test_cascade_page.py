@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.tools import THEMES, WIDTHS, fits, idle, picture
+from tests.browser.tools import THEMES, WIDTHS, fits, idle, nyquist_scale, picture
 
 TABS = ("Figures", "Bode", "Settings", "Windup", "Paper's pairs")
 PANELS = ("y1", "y2", "u", "nyquist")
@@ -61,14 +61,7 @@ def test_everything_that_decides_is_in_sight_without_scrolling(server, open_page
     expect(page.locator(".diagram .wide")).to_be_visible()
     expect(page.locator(".diagram .narrow")).to_be_hidden()
     assert "Block diagram" in page.locator(".diagram .wide").get_attribute("aria-label")
-    scale = page.evaluate(
-        """() => {
-            const layout = document.querySelector('.st-key-panel_nyquist .js-plotly-plot')._fullLayout;
-            const per = axis => axis._length / (axis.range[1] - axis.range[0]);
-            return per(layout.xaxis) / per(layout.yaxis);
-        }"""
-    )
-    assert scale == pytest.approx(1, rel=1e-6)
+    assert nyquist_scale(page) == pytest.approx(1, rel=1e-6)
 
 
 def test_a_narrow_screen_has_its_own_diagram_and_one_panel(server, open_page):

@@ -56,7 +56,7 @@ def parallel(app):
 
 
 def choose(app, row):
-    title = next(option for option in app.selectbox(key="pair").options if option.startswith(f"Pair {row}:"))
+    title = next(option for option in app.selectbox(key="pair").options if option.startswith(f"Pair {row},"))
     return app.selectbox(key="pair").set_value(title).run()
 
 
