@@ -44,7 +44,7 @@ with view:
     *tabs, pairs = st.tabs((*VIEWS, PAIRS), key="cascade_views", on_change="rerun")  # only the open one is made
     for tab, show in zip(tabs, VIEWS.values(), strict=True):
         if tab.open and present is not None:
-            with tab, guards.spoken():
+            with tab, cascade_guards.viewed():
                 show(present)
     if pairs.open:
         with pairs:

@@ -1,5 +1,8 @@
 """What must not be overlooked in a cascade, each with what to do instead."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import streamlit as st
 
 from pages.common import state
@@ -24,8 +27,17 @@ def show(study: CascadeStudy) -> None:
             st.warning(symbols(note))
         if study.unsettled:
             st.warning(symbols(f"No IAE: {study.unsettled}"))
-        if study.cascade.method == "synthesis" or study.separate:
+        if study.sound and (study.cascade.method == "synthesis" or study.separate):
             st.caption(separation(study))
+
+
+@contextmanager
+def viewed() -> Iterator[None]:
+    """A SimcError raised inside is told in words, in place of the rest of one view; the design itself stands."""
+    try:
+        yield
+    except SimcError as error:
+        st.warning(f"**This cannot be shown.** {symbols(str(error))}")
 
 
 def offer_synthesis(refusal: SimcError) -> None:

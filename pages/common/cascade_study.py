@@ -8,7 +8,7 @@ from simc_core.cascade import NestedStability
 from simc_core.cascade_design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
 from simc_core.cascade_examples import PairRow
 from simc_core.controllers import IController
-from simc_core.errors import NotStable, SimcError
+from simc_core.errors import SimcError
 from simc_core.grid import omega_grid
 from simc_core.loop import FrequencyResponse, frequency_response
 from simc_core.margins import Margins, margins
@@ -34,8 +34,8 @@ class SingleLoop:
 class CascadeStudy:
     """A cascade, how it came about and what it does.
 
-    outer, inner: margins of the loops.   performance: None where the cascade is not sound, or does not settle; then
-    unsettled says why.   single: the alternative, None where there is none; then no_single says why.
+    outer, inner: margins of the loops.   performance: None where the cascade is not sound, or cannot be followed until
+    it settles; then unsettled says why.   single: the alternative, None where there is none; then no_single says why.
     """
 
     cascade: Cascade
@@ -185,7 +185,7 @@ def scale(cascade: Cascade, loop: str) -> float:
 def _performance(loop: CascadeLoop) -> tuple[NestedPerformance | None, str]:
     try:
         return performance(loop), ""
-    except NotStable as error:
+    except SimcError as error:
         return None, str(error)
 
 

@@ -250,8 +250,14 @@ def test_windup_is_simulated_three_ways_with_limits_of_ones_own():
     app.number_input(key="u_max").set_value(0.8).run()
     for trace in specs(app)[1]["data"]:
         assert values(trace["y"]).max() == pytest.approx(0.8)
+
+
+def test_limits_that_leave_nothing_are_refused_in_words():
+    app = opened("Windup")
+    app.number_input(key="u_min").set_value(0.0).run()
     app.number_input(key="u_max").set_value(0.0).run()
-    assert not app.exception
+    assert "must hold, the state of rest" in texts(app)
+    assert not specs(app)
 
 
 def test_all_pairs_stand_beside_what_is_printed():
