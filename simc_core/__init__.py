@@ -7,7 +7,7 @@ from simc_core.direct_synthesis import direct_synthesis
 from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStable, ParseError, SimcError
 from simc_core.half_rule import half_rule
 from simc_core.loop import FrequencyResponse, Loop, frequency_response
-from simc_core.margins import Margins, crossings, margins, margins_of
+from simc_core.margins import Margins, crossings, margins, margins_many, margins_of
 from simc_core.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,
@@ -25,4 +25,5 @@ from simc_core.poles import ClosedLoopPole, dominant_poles
 from simc_core.reduction import Candidate, Reduction, Share, Step
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
-from simc_core.stability import Stability, count_unstable, stability
+from simc_core.stability import Stability, count_unstable, stability, stability_many
+from simc_core.sweep import Sweep, sweep

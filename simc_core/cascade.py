@@ -8,6 +8,7 @@ loop inside.
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from simc_core.margins import NOT_STABLE, Margins, crossings, margins, margins_o
 from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.stability import Stability, Verdict, count_unstable, stability
 
+RECENT = 64  # loops that are remembered
 RESONANCE = 1.05  # a peak of |T| above this bends the response enough to deserve nodes of its own
 
 
@@ -40,8 +42,14 @@ class NestedStability:
 
 @stability.register
 def _(loop: NestedLoops) -> NestedStability:
+    return verdict(loop)
+
+
+@lru_cache(maxsize=RECENT)  # margins, metrics and whoever shows the loop all ask for it
+def verdict(loop: NestedLoops) -> NestedStability:
+    """stability of these loops, remembered."""
     found = count_unstable(loop.terms)
-    inner = stability(loop.inside) if loop.inside else None
+    inner = verdict(loop.inside) if loop.inside else None
     return NestedStability(found.verdict, found.unstable_poles, found.neutral, inner)
 
 
@@ -68,10 +76,14 @@ def _(loop: NestedLoops) -> Crossings:
 def response(loop: NestedLoops) -> Response:
     """L of the outermost loop, the others closed, as the search for margins sees it."""
     own = FactoredResponse(loop.own)
-    if loop.inside is None:
-        return own
-    inner = response(loop.inside)
-    return Series(own, Closed(inner, _resonances(inner)))
+    return own if loop.inside is None else Series(own, closed(loop.inside))
+
+
+@lru_cache(maxsize=RECENT)  # many outer loops are tried round one inner loop
+def closed(loop: NestedLoops) -> Closed:
+    """T of these loops, remembered."""
+    inner = response(loop)
+    return Closed(inner, _resonances(inner))
 
 
 def _resonances(inner: Response) -> np.ndarray:

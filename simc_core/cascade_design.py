@@ -202,7 +202,7 @@ def _on_dead_time(name: str, block: Plant, theta: float) -> list[str]:
 
 
 def _on_inner(loop: CascadeLoop) -> list[str]:
-    found = stability(loop.inner_loop)
+    found = stability(loop.nested.inside)
     if found.verdict == "stable":
         return []
     return [

@@ -12,30 +12,40 @@ Divided by D*, which is D with every factor replaced by a well damped one in the
 analytic in the right half plane and on its boundary, bounded there, with the same zeros. Factors
 that D and D* share cancel exactly, and so does a stable zero of N_i that meets the same factor of D*: f is not
 changed by that, and the pole it belongs to is in the left half plane.
+
+The P_k have most of their factors in common. They are kept as one list of factors q_m and a table of exponents,
+
+    P_k = g_k e^{-theta_k s} prod_m q_m(s)^{e_km},
+
+so that each factor is evaluated once, and loops with the same table together.
 """
 
 import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.factors import Factored, factors
+from simc_core.factors import Factored, Row, product, rows_of
 
 WELL_DAMPED = math.sqrt(2.0)  # b >= sqrt(2 a c): |a s^2 + b s + c| grows with omega all along the axis
-
-Row = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
 class Characteristic:
-    """f = sum of `terms`, each with a denominator in the open left half plane (module docstring).
+    """f of the module docstring. rows: M factors (a, b, c).   exponents: K rows of M.   gains, thetas: K each.
 
+    At infinity P_k e^{theta_k s} ~ leading_k s^(zeros - poles), the pair of degrees_k.
     limit: what the terms without dead time tend to at infinity.   delayed: sum of |limit| of the others.
     """
 
-    terms: tuple[Factored, ...]
+    rows: tuple[Row, ...]
+    exponents: tuple[tuple[int, ...], ...]
+    gains: tuple[float, ...]
+    thetas: tuple[float, ...]
+    leading: tuple[float, ...]
+    degrees: tuple[tuple[int, int], ...]
     limit: float
     delayed: float
 
@@ -49,21 +59,33 @@ class Characteristic:
 
 def characteristic(terms: Sequence[Factored]) -> Characteristic:
     """f for 1 + sum of `terms`. Factors that several terms have in common are taken to be the same block."""
-    denominators = [Counter(_rows(term.den)) for term in terms]
-    common: Counter[Row] = Counter()
-    for rows in denominators:
-        common |= rows
-    corner = _corner(terms, common)
-    starred = Counter(_starred(row, corner) for row in common.elements())
-    products = [_over(1.0, common, starred, 0.0)]
-    for term, rows in zip(terms, denominators, strict=True):
-        products.append(_over(term.gain, Counter(_rows(term.num)) + (common - rows), starred, term.theta))
-    products = _proper([product for product in products if product.gain], corner)
-    limits = [limit_at_infinity(product) for product in products]
+    tops, bottoms = [rows_of(term.num) for term in terms], [rows_of(term.den) for term in terms]
+    common = _union(bottoms)
+    corner = _corner(terms, tops, bottoms, common)
+    starred = [_starred(row, corner) for row in common]
+    products = [_powers(common, starred)]
+    products += [_powers(top + _difference(common, bottom), starred) for top, bottom in zip(tops, bottoms, strict=True)]
+    degrees = [_degrees(powers) for powers in products]
+    excess = max(zeros - poles for zeros, poles in degrees)
+    if excess > 0:  # over s/corner + 1, until none of them grows at infinity
+        extra = (0.0, 1 / corner, 1.0)
+        for powers in products:
+            powers[extra] = powers.get(extra, 0) - excess
+        degrees = [_degrees(powers) for powers in products]
+    gains = (1.0, *(term.gain for term in terms))
+    thetas = (0.0, *(term.theta for term in terms))
+    leading = tuple(_leading(gain, powers) for gain, powers in zip(gains, products, strict=True))
+    flat = [(c, theta) for c, theta, (zeros, poles) in zip(leading, thetas, degrees, strict=True) if zeros == poles]
+    rows = tuple(dict.fromkeys(row for powers in products for row, power in powers.items() if power))
     return Characteristic(
-        tuple(products),
-        math.fsum(value for value, product in zip(limits, products, strict=True) if product.theta == 0),
-        math.fsum(abs(value) for value, product in zip(limits, products, strict=True) if product.theta > 0),
+        rows,
+        tuple([tuple([powers.get(row, 0) for row in rows]) for powers in products]),
+        gains,
+        thetas,
+        leading,
+        tuple(degrees),
+        math.fsum(c for c, theta in flat if theta == 0),
+        math.fsum(abs(c) for c, theta in flat if theta > 0),
     )
 
 
@@ -73,36 +95,49 @@ def shifted(term: Factored, sigma: float) -> Factored:
     return Factored(term.gain * math.exp(-term.theta * sigma), term.num @ move, term.den @ move, term.theta)
 
 
-def log_leading(term: Factored) -> float:
-    """log |c| of F ~ c s^{-n} e^{-theta s} at infinity."""
-    return math.log(abs(term.gain)) + _log_sizes(term.num) - _log_sizes(term.den)
+def _powers(top: Iterable[Row], bottom: Iterable[Row]) -> dict[Row, int]:
+    """Exponent of each factor of a product over another."""
+    powers: dict[Row, int] = {}
+    for row in top:
+        powers[row] = powers.get(row, 0) + 1
+    for row in bottom:
+        powers[row] = powers.get(row, 0) - 1
+    return powers
 
 
-def sign_leading(term: Factored) -> float:
-    """Sign of that c."""
-    return float(np.prod(np.sign(_leading(term.num))) * np.prod(np.sign(_leading(term.den))) * np.sign(term.gain))
-
-
-def limit_at_infinity(term: Factored) -> float:
-    """Limit of F e^{theta s} at infinity, signed; 0 where F is strictly proper."""
-    return 0.0 if term.relative_degree > 0 else sign_leading(term) * math.exp(log_leading(term))
-
-
-def limit_at_origin(term: Factored) -> float:
-    """k of F ~ k s^n at the origin, signed."""
-    constants = [c or b for rows in (term.num, term.den) for _, b, c in _rows(rows)]
-    return math.copysign(math.exp(_log_gain(term)), term.gain * math.prod(map(np.sign, constants)))
-
-
-def _rows(array: np.ndarray) -> list[Row]:
-    """Rows as tuples; s (a s + b) is taken apart, so that every zero at the origin is a factor of its own."""
-    rows: list[Row] = []
-    for a, b, c in array.tolist():
-        if a and c == 0:
-            rows += [(0.0, 1.0, 0.0), (0.0, a, b)]
+def _degrees(powers: dict[Row, int]) -> tuple[int, int]:
+    """Of numerator and denominator."""
+    above = below = 0
+    for (a, b, _), power in powers.items():
+        order = 2 if a else 1 if b else 0
+        if power > 0:
+            above += power * order
         else:
-            rows.append((a, b, c))
-    return rows
+            below -= power * order
+    return above, below
+
+
+def _leading(gain: float, powers: dict[Row, int]) -> float:
+    """c of P ~ c s^n e^{-theta s} at infinity."""
+    top = [a or b or c for (a, b, c), power in powers.items() for _ in range(power)]
+    return product(gain, top, [a or b or c for (a, b, c), power in powers.items() for _ in range(-power)])
+
+
+def _union(lists: Sequence[list[Row]]) -> list[Row]:
+    """Smallest list that holds each of `lists`."""
+    if len(lists) == 1:
+        return lists[0]
+    found: Counter[Row] = Counter()
+    for rows in lists:
+        found |= Counter(rows)
+    return list(found.elements())
+
+
+def _difference(rows: list[Row], less: list[Row]) -> list[Row]:
+    left = list(rows)
+    for row in less:
+        left.remove(row)
+    return left
 
 
 def _starred(row: Row, corner: float) -> Row:
@@ -113,39 +148,19 @@ def _starred(row: Row, corner: float) -> Row:
     return (0.0, b, c or corner * b) if b else (0.0, 0.0, c)
 
 
-def _corner(terms: Sequence[Factored], common: Counter[Row]) -> float:
+def _corner(terms, tops: list[list[Row]], bottoms: list[list[Row]], common: list[Row]) -> float:
     """Frequency at which the integrators of the loop have gain 1: there s becomes s + corner."""
-    at_origin = sum(times for (*_, c), times in common.items() if c == 0)
-    gains = [_log_gain(term) for term in terms if _at_origin(term.den) == at_origin and not _at_origin(term.num)]
-    if at_origin and gains:
-        return math.exp(max(gains) / at_origin)
+    at_origin = _at_origin(common)
+    if at_origin:
+        gains = [
+            abs(product(term.gain, [c or b for _, b, c in top], [c or b for _, b, c in bottom]))
+            for term, top, bottom in zip(terms, tops, bottoms, strict=True)
+            if _at_origin(bottom) == at_origin and not _at_origin(top)
+        ]
+        if gains:
+            return max(gains) ** (1 / at_origin)
     return 1 / max((term.theta for term in terms if term.theta), default=1.0)
 
 
-def _at_origin(rows: np.ndarray) -> int:
-    return sum(c == 0 for *_, c in _rows(rows))
-
-
-def _log_gain(term: Factored) -> float:
-    """log |k| of F ~ k/s^n at the origin."""
-    top, bottom = ([abs(c or b) for _, b, c in _rows(rows)] for rows in (term.num, term.den))
-    return math.log(abs(term.gain)) + math.fsum(map(math.log, top)) - math.fsum(map(math.log, bottom))
-
-
-def _over(gain: float, top: Counter[Row], bottom: Counter[Row], theta: float) -> Factored:
-    return Factored(gain, factors(*(top - bottom).elements()), factors(*(bottom - top).elements()), theta)
-
-
-def _proper(products: list[Factored], corner: float) -> list[Factored]:
-    """All products over further factors s/corner + 1, until none of them grows at infinity."""
-    excess = max(0, *(-product.relative_degree for product in products))
-    extra = factors(*[(0.0, 1 / corner, 1.0)] * excess)
-    return [Factored(p.gain, p.num, np.concatenate([p.den, extra]), p.theta) for p in products]
-
-
-def _leading(rows: np.ndarray) -> np.ndarray:
-    return np.where(rows[:, 0] != 0, rows[:, 0], np.where(rows[:, 1] != 0, rows[:, 1], rows[:, 2]))
-
-
-def _log_sizes(rows: np.ndarray) -> float:
-    return float(np.sum(np.log(np.abs(_leading(rows)))))
+def _at_origin(rows: list[Row]) -> int:
+    return sum(c == 0 for *_, c in rows)

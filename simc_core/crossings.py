@@ -4,32 +4,30 @@
     phase crossings    L real and negative         arg(-L) = 0
     peaks              |S|, |T| largest            d log|S|/d omega = -Re(T l') = 0,   d log|T|/d omega = Re(S l') = 0
 
-with l = log L (module logresponse). They are bracketed by sign changes on a grid: GRID_PER_DECADE nodes per decade,
-clusters at lightly damped roots, and steps of theta omega <= PHASE_STEP wherever |L| is large enough to matter.
-Where it is not: |S| <= 1/(1 - |L|) and |T| <= |L|/(1 - |L|), so that a peak seen on the grid excludes all frequencies
-with |L| below a level. A crossing hidden as a pair between two nodes is found by its extremum. All of them together
-are then polished by bracketed Newton steps with the derivatives in closed form.
-
-A loop with |L(inf)| near 1 never gets below the level: the grid ends at MOST_NODES, and beyond it 1/(1 - |L|)
-itself is the peak, up to (theta omega)^-2.
+with l = log L (module logresponse). They are bracketed by sign changes on a grid (module search_grid).
+A crossing hidden as a pair between two nodes is found by its extremum. All of them together, of all loops that are
+asked for, are then polished by bracketed Newton steps with the derivatives in closed form.
 """
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.logresponse import Response, sensitivities
+from simc_core.logresponse import LARGEST, FactoredResponse, Response, Together, sensitivities
+from simc_core.search_grid import Evaluate, Grid, search_grid
 
-GRID_PER_DECADE = 24
-PHASE_STEP = 0.3
-MOST_NODES = 12_000
-LIGHT = 0.35  # damping below which a root gets a cluster
-CLUSTER = 1.5 ** np.arange(-4, 40)  # offsets from a resonance, in units of its half width
-NARROWEST = 1e-7  # half width of an undamped root, relative
+TOGETHER = 32  # loops; more do not fit the cache
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
 QUADRATIC = 1e-9  # after a Newton step this small the next would be below rounding
-STEPS = 60  # of the polishing; six are usual
+SETTLED = 5e-15  # the next step would be this small
+ROUNDING = 4e-16
+HUGE = 1e43
+STEPS = 60  # of the polishing; two or three are usual
+GAIN, PHASE, S_PEAK, T_PEAK = range(4)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,182 +52,166 @@ class Crossings:
 
 def search(response: Response) -> Crossings:
     """Every crossing and peak at 0 < omega < inf that margins can depend on."""
-    omega, logs, envelope = _nodes(response)
-    values = _functions(*logs)
-    resolved = response.theta * np.diff(omega) <= 1.01 * PHASE_STEP
-    low, high, kind = _brackets(omega, values[0], resolved)
-    hidden = _hidden(omega, *values)
-    if hidden[0].size:
-        extra = _brackets_at(response, hidden)
-        low, high, kind = (np.concatenate(pair) for pair in zip((low, high, kind), extra, strict=True))
-    found = _polished(response, low, high, kind)
-    log, *_ = response.log_derivatives(found)
-    arg, S, T = _from_negative(log), *sensitivities(log)
-    gain = kind == GAIN
-    phase = (kind == PHASE) & (np.abs(arg) < 1e-6) & (np.abs(log.real) < 100)  # not the jump at an undamped root
-    order = np.argsort(found, kind="stable")
-
-    def take(where, values):
-        return values[order][where[order]]
-
-    return Crossings(
-        take(gain, found),
-        take(gain, arg),
-        take(phase, found),
-        take(phase, np.exp(np.clip(log.real, -700, 700))),
-        take(kind == S_PEAK, found),
-        take(kind == S_PEAK, np.abs(S)),
-        take(kind == T_PEAK, found),
-        take(kind == T_PEAK, np.abs(T)),
-        envelope,
-    )
+    return _search([response], lambda omega, _: response.log_derivatives(omega))[0]
 
 
-GAIN, PHASE, S_PEAK, T_PEAK = range(4)
+def search_many(responses: Sequence[FactoredResponse]) -> list[Crossings]:
+    """The same for each of `responses`, worked on together."""
+    found: list[Crossings] = []
+    for start in range(0, len(responses), TOGETHER):
+        some = responses[start : start + TOGETHER]
+        found += _search(some, Together(some).log_derivatives)
+    return found
 
 
-def _from_negative(log: np.ndarray) -> np.ndarray:
+class _Brackets(NamedTuple):
+    """Intervals [low, high] that hold a zero of the function `kind` of loop `owner`; start: a guess at it.
+
+    rising: whether the function is negative at low.
+    """
+
+    low: np.ndarray
+    high: np.ndarray
+    kind: np.ndarray
+    owner: np.ndarray
+    start: np.ndarray
+    rising: np.ndarray
+
+
+def _search(responses: Sequence[Response], evaluate: Evaluate) -> list[Crossings]:
+    grid = search_grid(responses, evaluate)
+    values = _values(*grid.samples)
+    brackets = _brackets(grid, values)
+    hidden = _hidden(evaluate, grid, values)
+    if hidden:
+        brackets = _Brackets(*(np.concatenate(pair) for pair in zip(brackets, hidden, strict=True)))
+    kind, owner = brackets.kind, brackets.owner
+    omega, what = _polished(evaluate, brackets)
+    key = 4 * owner + kind
+    jump = (np.abs(what[GAIN]) > 1e-6) | (what[PHASE] < 1 / HUGE) | (what[PHASE] > HUGE)  # at an undamped root
+    order = np.lexsort((omega, key))
+    order = order[~(jump & (kind == PHASE))[order]]
+    omega, what, key = omega[order], what[kind[order], order], key[order]
+    edges = key.searchsorted(np.arange(4 * len(responses) + 1)).tolist()
+    parts = [(omega[i:j], what[i:j]) for i, j in pairwise(edges)]
+    return [
+        Crossings(*parts[4 * i], *parts[4 * i + 1], *parts[4 * i + 2], *parts[4 * i + 3], envelope)
+        for i, envelope in enumerate(grid.envelopes)
+    ]
+
+
+def from_negative(log: np.ndarray) -> np.ndarray:
     """arg(-L) in (-pi, pi]."""
-    return -((-log.imag) % (2 * math.pi) - math.pi)
+    return math.pi - (-log.imag) % (2 * math.pi)
 
 
-def _functions(log: np.ndarray, first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The four functions whose zeros are sought, shape (4, n), and their derivatives."""
-    S, T = sensitivities(log)
+def _values(log, first, _, S, T) -> np.ndarray:
+    """The four functions whose zeros are sought, shape (4, n)."""
+    return np.array([log.real, from_negative(log), -(T * first).real, (S * first).real])
+
+
+def _slopes(log, first, second, S, T) -> np.ndarray:
+    """Their derivatives."""
     bend = T * S * first**2
-    values = np.stack([log.real, _from_negative(log), -(T * first).real, (S * first).real])
-    slopes = np.stack([first.real, first.imag, -(T * second + bend).real, (S * second - bend).real])
-    return values, slopes
+    return np.array([first.real, first.imag, -(T * second + bend).real, (S * second - bend).real])
 
 
-def _brackets(omega: np.ndarray, values: np.ndarray, resolved: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Intervals that hold a zero: ends and kind. Where the grid does not resolve the phase, only |L| is looked at."""
+def _brackets(grid: Grid, values: np.ndarray) -> _Brackets:
+    """Between nodes. Where the grid does not resolve the phase, only |L| is looked at."""
     left, right = values[:, :-1], values[:, 1:]
     holds = (left < 0) != (right < 0)
     holds[PHASE] &= np.abs(left[PHASE] - right[PHASE]) < math.pi  # arg(-L) = 0, not its jump at pi
-    holds[S_PEAK:] &= (left[S_PEAK:] - right[S_PEAK:]) * omega[1:] > FLAT  # peaks, not valleys
-    holds[PHASE:] &= resolved
+    holds[S_PEAK:] &= (left[S_PEAK:] - right[S_PEAK:]) * grid.omega[1:] > FLAT  # peaks, not valleys
+    holds[PHASE:] &= grid.resolved
+    holds[GAIN] &= grid.inside
     kind, at = np.nonzero(holds)
-    return omega[at], omega[at + 1], kind
+    low, high, below, above = grid.omega[at], grid.omega[at + 1], left[kind, at], right[kind, at]
+    slopes = _slopes(*grid.samples[:, np.concatenate([at, at + 1])]).reshape(4, 2, -1)[kind, :, np.arange(kind.size)].T
+    return _Brackets(low, high, kind, grid.owner[at], _guess(low, high, below, above, *slopes), below < 0)
 
 
-def _hidden(omega: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Intervals in which log|L| or arg(-L) turns round and may touch zero: ends and kind."""
-    step = np.diff(omega)
-    left, right, rise, fall = values[:2, :-1], values[:2, 1:], slopes[:2, :-1], slopes[:2, 1:]
-    towards = (left * rise < 0) & (right * fall > 0) & (left * right > 0)
-    near = (np.abs(left) < np.abs(rise) * step) | (np.abs(right) < np.abs(fall) * step)
-    kind, at = np.nonzero(towards & near)
-    return omega[at], omega[at + 1], kind
+def _guess(low, high, below, above, slope_low, slope_high) -> np.ndarray:
+    """Where the function is zero: omega as its cubic from values and slopes at both ends, else by the secant."""
+    width, part = high - low, below / (below - above)
+    rest = 1 - part
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = rest * ((above - below) / slope_low - width) - part * ((above - below) / slope_high - width)
+    secant = low + width * part
+    cubic = secant + part * rest * bend
+    return np.where((cubic > low) & (cubic < high), cubic, secant)
 
 
-def _brackets_at(response: Response, hidden) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Brackets left and right of the extrema inside `hidden`, where these are beyond zero."""
-    low, high, kind = hidden
-    middle = _polished(response, low, high, kind, of_slope=True)
-    outer, _ = _functions(*response.log_derivatives(low))
-    inner, _ = _functions(*response.log_derivatives(middle))
-    pick = np.arange(kind.size)
-    beyond = inner[kind, pick] * outer[kind, pick] < 0
-    low, middle, high, kind = low[beyond], middle[beyond], high[beyond], kind[beyond]
-    return np.concatenate([low, middle]), np.concatenate([middle, high]), np.concatenate([kind, kind])
+def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | None:
+    """Left and right of the extrema of log|L| or arg(-L) between two nodes, where these are beyond zero."""
+    first = grid.samples[1]
+    values, slopes, step = values[:2], np.array([first.real, first.imag]), grid.omega[1:] - grid.omega[:-1]
+    trend, size, change = values * slopes, np.abs(values), np.abs(slopes)
+    reach = (size[:, :-1] < change[:, :-1] * step) | (size[:, 1:] < change[:, 1:] * step)
+    turns = (trend[:, :-1] < 0) & (trend[:, 1:] > 0) & (values[:, :-1] * values[:, 1:] > 0) & reach & grid.inside
+    kind, at = np.nonzero(turns)
+    if not kind.size:
+        return None
+    low, high, owner, outer = grid.omega[at], grid.omega[at + 1], grid.owner[at], values[kind, at]
+    is_gain = kind == GAIN
+
+    def slope(omega):
+        _, first, second = evaluate(omega, owner)
+        return np.where(is_gain, first.real, first.imag), np.where(is_gain, second.real, second.imag)
+
+    middle = _newton(slope, low, high, np.sqrt(low * high), slopes[kind, at] < 0)
+    log, *_ = evaluate(middle, owner)
+    inner = np.where(is_gain, log.real, from_negative(log))
+    i = np.flatnonzero(inner * outer < 0)
+    if not i.size:
+        return None
+    low, middle, high, kind, owner, rising = low[i], middle[i], high[i], kind[i], owner[i], outer[i] < 0
+    ends = np.concatenate([low, middle]), np.concatenate([middle, high])
+    return _Brackets(
+        *ends, np.tile(kind, 2), np.tile(owner, 2), np.sqrt(ends[0] * ends[1]), np.concatenate([rising, ~rising])
+    )
 
 
-def _polished(response: Response, low, high, kind, of_slope: bool = False) -> np.ndarray:
-    """Zeros inside the brackets to full precision: Newton, or bisection where Newton would leave the bracket.
+def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray]:
+    """omega of the zeros to full precision, (n,), and arg(-L), |L|, |S|, |T| there, (4, n)."""
+    kind, owner = brackets.kind, brackets.owner
+    if not kind.size:
+        return brackets.low, np.zeros((4, 0))
+    is_gain, is_crossing, is_S_peak = kind == GAIN, kind <= PHASE, kind == S_PEAK
 
-    of_slope: zeros of the slope of log|L| and arg L instead (kinds GAIN and PHASE).
+    def function(omega):
+        log, first, second = evaluate(omega, owner)
+        S, T = sensitivities(log)
+        weight, bend = np.where(is_S_peak, -T, S), S * T * (first * first)
+        value = np.where(is_gain, log.real, from_negative(log))
+        slope = np.where(is_gain, first.real, first.imag)
+        return (
+            np.where(is_crossing, value, (weight * first).real),
+            np.where(is_crossing, slope, (weight * second - bend).real),
+        )
+
+    omega = _newton(function, brackets.low, brackets.high, brackets.start, brackets.rising)
+    log, *_ = evaluate(omega, owner)
+    S, T = sensitivities(log)
+    return omega, np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
+
+
+def _newton(function: Callable, low, high, omega, rising) -> np.ndarray:
+    """Zeros inside the brackets: Newton from omega, or bisection where Newton would leave the bracket.
+
+    function: value and slope at omega.   rising: whether the value is negative at low.
     """
-    if not low.size:
-        return low
-    pick = np.arange(kind.size)
-
-    def at(omega):
-        logs = response.log_derivatives(omega)
-        if of_slope:
-            return np.stack([logs[1].real, logs[1].imag])[kind, pick], np.stack([logs[2].real, logs[2].imag])[
-                kind, pick
-            ]
-        values, slopes = _functions(*logs)
-        return values[kind, pick], slopes[kind, pick]
-
-    low, high = low.copy(), high.copy()
-    rising = at(low)[0] < 0
-    omega = np.sqrt(low * high)
+    previous = np.zeros_like(omega)
     for _ in range(STEPS):
-        value, slope = at(omega)
+        value, slope = function(omega)
         below = (value < 0) == rising
         low, high = np.where(below, omega, low), np.where(below, high, omega)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            newton = omega - value / slope
+        newton = omega - value / np.where(slope == 0, np.nan, slope)
         inside = (newton >= low) & (newton <= high)
         following = np.where(value == 0, omega, np.where(inside, newton, np.sqrt(low * high)))
-        settled = (inside & (np.abs(following - omega) <= QUADRATIC * omega)) | (high - low <= 4e-16 * omega)
-        omega = following
-        if np.all(settled | (value == 0)):
+        step = np.abs(following - omega)
+        ahead = step**3 <= SETTLED * omega * previous**2  # errors square: the next step would be step^3/previous^2
+        settled = (inside & (ahead | (step <= QUADRATIC * omega))) | (high - low <= ROUNDING * omega) | (value == 0)
+        omega, previous = following, np.where(inside, step, 0.0)
+        if settled.all():
             break
     return omega
-
-
-def _nodes(response: Response):
-    """Grid, log L with derivatives on it, and the envelope of |S| and |T| where the grid had to end early."""
-    omega = _base_grid(response)
-    logs = response.log_derivatives(omega)
-    if not response.theta:
-        return omega, logs, (0.0, 0.0)
-    level, last = _level(response, omega, logs[0])
-    size = logs[0].real
-    matters = (np.maximum(size[:-1], size[1:]) >= level) | (omega[1:] <= last)
-    pieces = np.where(matters, np.ceil(response.theta * np.diff(omega) / PHASE_STEP), 1).clip(1)
-    within = np.cumsum(pieces) <= MOST_NODES
-    beyond = ~within & matters
-    pieces = np.where(within, pieces, 1).astype(int)
-    if pieces.max() > 1:
-        omega = _refined(omega, pieces)
-        logs = response.log_derivatives(omega)
-    x = np.exp(min(np.max(size[1:][beyond], initial=-math.inf), -1e-15))
-    return omega, logs, (1 / (1 - x), x / (1 - x)) if beyond.any() else (0.0, 0.0)
-
-
-def _level(response: Response, omega: np.ndarray, log: np.ndarray) -> tuple[float, float]:
-    """log|L| below which nothing matters, and the frequency up to which everything does.
-
-    Beyond the last gain crossing the phase falls by 2 pi within two turns of the dead time: there is a phase crossing.
-    """
-    S, T = sensitivities(log)
-    Ms, Mt = np.max(np.abs(S)), np.max(np.abs(T))
-    above = np.nonzero(log.real >= 0)[0]
-    start = omega[above[-1]] if above.size else 0.0
-    last = start + 4 * math.pi / response.theta
-    at_last = float(np.interp(last, omega, log.real))
-    return min(math.log1p(-1 / max(Ms, 1 + 1e-6)), math.log(Mt / (1 + Mt)), at_last), last
-
-
-def _refined(omega: np.ndarray, pieces: np.ndarray) -> np.ndarray:
-    """Interval i in pieces[i] equal parts."""
-    index = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    fine = np.repeat(omega[:-1], pieces) + np.repeat(np.diff(omega) / pieces, pieces) * index
-    return np.append(fine, omega[-1])
-
-
-def _base_grid(response: Response) -> np.ndarray:
-    """Two decades beyond all corners at either end, clusters where the damping is light."""
-    corners = list(np.abs(response.roots))
-    for gain, power in (response.at_zero, response.at_infinity):
-        if power:
-            corners.append(abs(gain) ** (-1 / power))
-    if response.theta:
-        corners += [1 / response.theta, 4 * math.pi / response.theta]
-    corners = np.array(corners or [1.0])
-    first, last = 1e-2 * corners.min(), 1e2 * corners.max()
-    grid = np.geomspace(first, last, 2 + int(GRID_PER_DECADE * math.log10(last / first)))
-    upper = response.roots[response.roots.imag > 0]
-    light = upper[np.abs(upper.real) < LIGHT * np.abs(upper)]
-    if not light.size:
-        return grid
-    width = np.maximum(np.abs(light.real), NARROWEST * np.abs(light))
-    offsets = width[:, None] * CLUSTER
-    near = offsets < 0.5 * light.imag[:, None]
-    centres = np.broadcast_to(light.imag[:, None], offsets.shape)
-    cluster = np.concatenate([(centres - offsets)[near], (centres + offsets)[near]])
-    return np.unique(np.concatenate([grid, cluster]))

@@ -6,9 +6,13 @@ Plants, controllers and loops all take this shape on their way into the engine. 
 multiplied out: an order-8 polynomial has lost its small time constants to rounding, its factors have not.
 """
 
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+
+Row = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,17 +49,17 @@ class Factored:
     @property
     def poles(self) -> np.ndarray:
         """Poles, complex, with multiplicity."""
-        return _roots(self.den)
+        return np.array(roots_of(self.den.tolist()), dtype=complex)
 
     @property
     def zeros(self) -> np.ndarray:
         """Zeros, complex, with multiplicity."""
-        return _roots(self.num)
+        return np.array(roots_of(self.num.tolist()), dtype=complex)
 
     @property
     def relative_degree(self) -> int:
         """Degree of the denominator minus degree of the numerator."""
-        return _degree(self.den) - _degree(self.num)
+        return degree(self.den.tolist()) - degree(self.num.tolist())
 
 
 def factors(*rows: tuple[float, float, float]) -> np.ndarray:
@@ -69,25 +73,60 @@ def _factor(row: np.ndarray, s: np.ndarray) -> np.ndarray:
     return (a * s + b) * s + c if a else b * s + c
 
 
-def _degree(rows: np.ndarray) -> int:
-    return int(sum(2 if a else 1 if b else 0 for a, b, _ in rows))
+def rows_of(array: np.ndarray) -> list[Row]:
+    """Rows as tuples; s (a s + b) is taken apart, so that every zero at the origin is a factor of its own."""
+    rows: list[Row] = []
+    for a, b, c in array.tolist():
+        if a and c == 0:
+            rows += [(0.0, 1.0, 0.0), (0.0, a, b)]
+        else:
+            rows.append((a, b, c))
+    return rows
 
 
-def _roots(rows: np.ndarray) -> np.ndarray:
+def without_common(one: Sequence[Row], other: Sequence[Row]) -> tuple[list[Row], list[Row], list[Row]]:
+    """Both without the rows they share, and these."""
+    kept, left, common = [], list(other), []
+    for row in one:
+        if row in left:
+            left.remove(row)
+            common.append(row)
+        else:
+            kept.append(row)
+    return kept, left, common
+
+
+def degree(rows: Iterable[Row]) -> int:
+    """Degree of the product."""
+    return sum(2 if a else 1 if b else 0 for a, b, _ in rows)
+
+
+def roots_of(rows: Iterable[Row]) -> list[complex]:
+    """Roots of the product, with multiplicity."""
     found: list[complex] = []
     for a, b, c in rows:
         if a:
-            found.extend(quadratic_roots(a, b, c))
+            found += quadratic_roots(a, b, c)
         elif b:
             found.append(complex(-c / b))
-    return np.array(found, dtype=complex)
+    return found
+
+
+def product(gain: float, top: Sequence[float], bottom: Sequence[float]) -> float:
+    """gain prod(top)/prod(bottom) of nonzero numbers; 1e304 or 1e-304 where it would be beyond these."""
+    above, below = math.prod(top, start=gain), math.prod(bottom)
+    if 1e-150 < abs(above) < 1e150 and 1e-150 < abs(below) < 1e150:
+        return above / below
+    log = math.log(abs(gain)) + math.fsum(math.log(abs(x)) for x in top) - math.fsum(math.log(abs(x)) for x in bottom)
+    negative = sum(x < 0 for x in (gain, *top, *bottom)) % 2
+    return math.exp(min(max(log, -700.0), 700.0)) * (-1.0 if negative else 1.0)
 
 
 def quadratic_roots(a: float, b: float, c: float) -> tuple[complex, complex]:
     """Roots of a s^2 + b s + c without cancellation (Goldberg 1991)."""
     scaled = b * b - 4 * a * c
     if scaled < 0:
-        half = complex(-b / (2 * a), np.sqrt(-scaled) / (2 * a))
+        half = complex(-b / (2 * a), math.sqrt(-scaled) / (2 * a))
         return half, half.conjugate()
-    q = -0.5 * (b + np.copysign(np.sqrt(scaled), b))
+    q = -0.5 * (b + math.copysign(math.sqrt(scaled), b))
     return (complex(q / a), complex(c / q)) if q else (0j, 0j)

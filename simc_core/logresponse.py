@@ -15,13 +15,20 @@ loop of a cascade, Ca Ga Tb, or of more nested loops: Series(FactoredResponse(Ca
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from simc_core.characteristic import limit_at_origin, log_leading, sign_leading
-from simc_core.factors import Factored
+from simc_core.factors import Factored, degree, product, roots_of, rows_of, without_common
+
+Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
+
+ONE = (0.0, 0.0, 1.0)
+LEAST = 1e-20  # 2 zeta of an undamped pair, less than rounding, so that no frequency is exactly its own
+LARGEST = 600.0  # of log|L| where S and T are wanted
 
 
 class Asymptote(NamedTuple):
@@ -40,34 +47,70 @@ class Response(Protocol):
     """
 
     theta: float
-    roots: np.ndarray
+    roots: list[complex]
     at_zero: Asymptote
     at_infinity: Asymptote
 
-    def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]: ...
+    def log_derivatives(self, omega: np.ndarray) -> Logs: ...
 
 
 class FactoredResponse:
     """A Factored as a Response."""
 
     def __init__(self, L: Factored):
+        num, den, _ = without_common(rows_of(L.num), rows_of(L.den))
         self.theta = L.theta
-        poles, zeros = L.poles, L.zeros
-        self.roots = np.concatenate([poles[poles != 0], zeros[zeros != 0]])
-        origin = int(np.sum(zeros == 0)) - int(np.sum(poles == 0))
-        self.at_zero = Asymptote(limit_at_origin(L), origin)
-        self.at_infinity = Asymptote(sign_leading(L) * math.exp(log_leading(L)), -L.relative_degree)
-        self._rows = np.concatenate([L.num, L.den])
-        self._signs = np.concatenate([np.ones(len(L.num)), -np.ones(len(L.den))])
-        self._gain = complex(math.log(abs(L.gain)), -math.pi if L.gain < 0 else 0.0)
+        self.roots = [root for root in roots_of(num + den) if root]
+        origin = sum(c == 0 for *_, c in num) - sum(c == 0 for *_, c in den)
+        self.at_zero = Asymptote(product(L.gain, [c or b for _, b, c in num], [c or b for _, b, c in den]), origin)
+        leading = product(L.gain, [a or b or c for a, b, c in num], [a or b or c for a, b, c in den])
+        self.at_infinity = Asymptote(leading, degree(num) - degree(den))
+        self.gain, self.num, self.den = L.gain, num, den
 
-    def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    @cached_property
+    def _alone(self) -> "Together":
+        return Together([self])
+
+    def log_derivatives(self, omega: np.ndarray) -> Logs:
         """See Response."""
-        a, b, c = self._rows.T[:, :, None]
-        q = (c - a * omega**2) + 1j * (b * omega)
-        slope = (b + 2j * a * omega) / q
-        log = self._signs @ np.log(q) + self._gain - 1j * self.theta * omega
-        return log, 1j * (self._signs @ slope) - 1j * self.theta, self._signs @ (slope**2 - 2 * a / q)
+        return self._alone.log_derivatives(omega)
+
+
+class Together:
+    """Several FactoredResponses, evaluated together. Lists of different length are filled up with factors 1."""
+
+    def __init__(self, responses: Sequence[FactoredResponse]):
+        top = max(len(response.num) for response in responses)
+        bottom = max(len(response.den) for response in responses)
+        rows = [[*r.num, *[ONE] * (top - len(r.num)), *r.den, *[ONE] * (bottom - len(r.den))] for r in responses]
+        self.a, self.b, self.c = np.ascontiguousarray(np.array(rows).reshape(len(rows), -1, 3).T)  # (M, n) each
+        self.signs = np.array([1.0] * top + [-1.0] * bottom)
+        self.bends = self.a.any()
+        undamped = (self.a != 0) & (self.b == 0)
+        self.b[undamped] = LEAST * np.sqrt(np.abs(self.a * self.c))[undamped]
+        self.thetas = np.array([response.theta for response in responses])
+        self.sizes = np.array([math.log(abs(response.gain)) for response in responses])
+        self.turns = np.array([-math.pi if response.gain < 0 else 0.0 for response in responses])
+
+    def log_derivatives(self, omega: np.ndarray, owner: np.ndarray | None = None) -> Logs:
+        """As in Response, of the response owner[i] at omega[i]; with one response owner does not matter."""
+        a, b, c, theta, size, turn = self.a, self.b, self.c, self.thetas, self.sizes, self.turns
+        if theta.size > 1:
+            b, c, theta, size, turn = b[:, owner], c[:, owner], theta[owner], size[owner], turn[owner]
+            a = a[:, owner] if self.bends else a
+        q = np.empty((len(a), omega.size), dtype=complex)
+        q.real, q.imag = c - a * (omega * omega) if self.bends else c, b * omega
+        inverse = 1 / q
+        slope = (b + 2j * a * omega if self.bends else b) * inverse
+        bend = slope * slope
+        if self.bends:
+            bend -= 2 * a * inverse
+        log = np.empty(omega.size, dtype=complex)
+        log.real = self.signs @ np.log(np.abs(q)) + size
+        log.imag = self.signs @ np.angle(q) + (turn - theta * omega)
+        first = self.signs @ slope
+        first -= theta
+        return log, 1j * first, self.signs @ bend
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,9 +126,9 @@ class Closed:
         return self.inner.theta
 
     @property
-    def roots(self) -> np.ndarray:
+    def roots(self) -> list[complex]:
         """Roots of L and the poles of T."""
-        return np.concatenate([self.inner.roots, self.poles])
+        return [*self.inner.roots, *self.poles.tolist()]
 
     @property
     def at_zero(self) -> Asymptote:
@@ -101,7 +144,7 @@ class Closed:
         gain, power = self.inner.at_infinity
         return Asymptote(gain / (1 + gain), 0) if power == 0 and self.theta == 0 else self.inner.at_infinity
 
-    def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def log_derivatives(self, omega: np.ndarray) -> Logs:
         """See Response; the argument is a principal value."""
         log, first, second = self.inner.log_derivatives(omega)
         S, T = sensitivities(log)
@@ -121,9 +164,9 @@ class Series:
         return self.one.theta + self.other.theta
 
     @property
-    def roots(self) -> np.ndarray:
+    def roots(self) -> list[complex]:
         """Those of both."""
-        return np.concatenate([self.one.roots, self.other.roots])
+        return [*self.one.roots, *self.other.roots]
 
     @property
     def at_zero(self) -> Asymptote:
@@ -135,19 +178,19 @@ class Series:
         """Product of both."""
         return _product(self.one.at_infinity, self.other.at_infinity)
 
-    def log_derivatives(self, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def log_derivatives(self, omega: np.ndarray) -> Logs:
         """See Response."""
         one, other = self.one.log_derivatives(omega), self.other.log_derivatives(omega)
         return one[0] + other[0], one[1] + other[1], one[2] + other[2]
 
 
 def sensitivities(log: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """S and T from log L, without overflow and without cancellation for large or small |L|."""
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        big = log.real > 0
-        x = np.exp(np.where(big, -log, log))
-        inverse = 1 / (1 + x)
-        return np.where(big, x * inverse, inverse), np.where(big, inverse, x * inverse)
+    """S and T from log L, also where L overflows."""
+    if np.max(log.real, initial=0.0) > LARGEST:
+        log = np.minimum(log.real, LARGEST) + 1j * log.imag
+    L = np.exp(log)
+    S = 1 / (1 + L)
+    return S, L * S
 
 
 def _product(one: Asymptote, other: Asymptote) -> Asymptote:

@@ -14,7 +14,7 @@ C is `controller.response`, C_r `controller.setpoint_response`. With b = c = 1 C
 """
 
 from dataclasses import dataclass
-from functools import singledispatch
+from functools import lru_cache, singledispatch
 
 import numpy as np
 
@@ -34,7 +34,13 @@ class Loop:
     @property
     def L(self) -> Factored:
         """Loop transfer function G C, exact dead time."""
-        return self.plant.factored * self.controller.factored
+        return _factored(self.plant) * self.controller.factored
+
+
+@lru_cache(maxsize=16)
+def _factored(plant: Plant) -> Factored:
+    """One plant meets many controllers."""
+    return plant.factored
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,15 +13,16 @@ nothing: they are all math.nan.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import singledispatch
 
 import numpy as np
 
-from simc_core.crossings import Crossings, search
+from simc_core.crossings import Crossings, search, search_many
 from simc_core.logresponse import FactoredResponse, Response
 from simc_core.loop import Loop
-from simc_core.stability import stability
+from simc_core.stability import Stability, stability, stability_many
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +51,7 @@ NOT_STABLE = Margins(*[math.nan] * 10, stable=False)
 @singledispatch
 def margins(loop: Loop) -> Margins:
     """Margins of a single loop; all nan where it is not stable."""
-    if stability(loop).verdict != "stable":
-        return NOT_STABLE
-    return margins_of(FactoredResponse(loop.L))
+    return margins_many([loop], [stability(loop)])[0]
 
 
 @singledispatch
@@ -63,16 +62,35 @@ def crossings(loop: Loop) -> Crossings:
 
 def margins_of(response: Response) -> Margins:
     """Margins of any loop transfer function that is known to be stable when closed."""
-    found = search(response)
-    GM, GM_lower, omega_180 = _gain_margins(response, found)
+    return _margins(response, search(response))
+
+
+def margins_many(loops: Sequence[Loop], verdicts: Sequence[Stability] | None = None) -> list[Margins]:
+    """Margins of single loops, worked on together: cheapest where all have the same plant and form of controller.
+
+    verdicts: what stability_many says of `loops`, where that is known.
+    """
+    verdicts = stability_many(loops) if verdicts is None else verdicts
+    stable = [i for i, verdict in enumerate(verdicts) if verdict.verdict == "stable"]
+    responses = [FactoredResponse(loops[i].L) for i in stable]
+    found = [NOT_STABLE] * len(loops)
+    for i, response, crossed in zip(stable, responses, search_many(responses), strict=True):
+        found[i] = _margins(response, crossed)
+    return found
+
+
+def _margins(response: Response, found: Crossings) -> Margins:
+    limits = _limits(response)
+    S_ends, T_ends = zip(*map(_sensitivities, limits), strict=True)
+    GM, GM_lower, omega_180 = _gain_margins(limits, found)
     PM, omega_c = _phase_margin(found)
-    Ms, omega_Ms = _peak(found.S_peak, found.S_omega, _ends(response, lambda L: 1 / (1 + L)), found.envelope[0])
-    Mt, omega_Mt = _peak(found.T_peak, found.T_omega, _ends(response, lambda L: L / (1 + L)), found.envelope[1])
+    Ms, omega_Ms = _peak(found.S_peak, found.S_omega, S_ends, found.envelope[0])
+    Mt, omega_Mt = _peak(found.T_peak, found.T_omega, T_ends, found.envelope[1])
     return Margins(
         GM=GM,
         GM_lower=GM_lower,
         PM_deg=math.degrees(PM),
-        delay_margin=_delay_margin(response, found),
+        delay_margin=_delay_margin(response, limits, found),
         Ms=Ms,
         Mt=Mt,
         omega_180=omega_180,
@@ -91,42 +109,36 @@ def _limits(response: Response) -> tuple[float, float]:
     return at[0], -abs(at[1]) if response.theta else at[1]
 
 
-def _gain_margins(response: Response, found: Crossings) -> tuple[float, float, float]:
-    at_zero, at_infinity = _limits(response)
-    gains, omegas = list(found.phase_gain), list(found.phase_omega)
-    for limit, omega in ((at_zero, 0.0), (at_infinity, math.inf)):
-        if -math.inf < limit < 0:
-            gains.append(-limit)
-            omegas.append(omega)
-    above = [(1 / gain, omega) for gain, omega in zip(gains, omegas, strict=True) if gain < 1]
-    below = [1 / gain for gain in gains if gain >= 1]
-    GM, omega_180 = min(above, default=(math.inf, math.nan))
-    return float(GM), float(max(below, default=0.0)), float(omega_180)
+def _sensitivities(L: float) -> tuple[float, float]:
+    """|S| and |T| where L is real, perhaps infinite."""
+    return (0.0, 1.0) if math.isinf(L) else (abs(1 / (1 + L)), abs(L / (1 + L)))
+
+
+def _gain_margins(limits: tuple[float, float], found: Crossings) -> tuple[float, float, float]:
+    crossed = list(zip(found.phase_gain.tolist(), found.phase_omega.tolist(), strict=True))
+    crossed += [(-limit, omega) for limit, omega in zip(limits, (0.0, math.inf), strict=True) if -math.inf < limit < 0]
+    above = [(1 / gain, omega) for gain, omega in crossed if gain < 1]
+    GM, _ = min(above, default=(math.inf, math.nan))
+    omega_180 = min((omega for factor, omega in above if factor <= GM * (1 + ROUNDING)), default=math.nan)
+    return GM, max((1 / gain for gain, _ in crossed if gain >= 1), default=0.0), omega_180
 
 
 def _phase_margin(found: Crossings) -> tuple[float, float]:
-    if not found.gain_omega.size:
-        return math.inf, math.nan
-    at = np.argmin(np.abs(found.gain_phase))
-    return float(abs(found.gain_phase[at])), float(found.gain_omega[at])
+    crossed = zip(map(abs, found.gain_phase.tolist()), found.gain_omega.tolist(), strict=True)
+    return min(crossed, default=(math.inf, math.nan))
 
 
-def _delay_margin(response: Response, found: Crossings) -> float:
-    if response.theta == 0 and abs(_limits(response)[1]) >= 1:
+def _delay_margin(response: Response, limits: tuple[float, float], found: Crossings) -> float:
+    if response.theta == 0 and abs(limits[1]) >= 1:
         return 0.0  # any dead time at all makes it a neutral loop with |L(inf)| >= 1
-    return float(np.min((found.gain_phase % (2 * math.pi)) / found.gain_omega, initial=math.inf))
+    crossed = zip(found.gain_phase.tolist(), found.gain_omega.tolist(), strict=True)
+    return min((phase % (2 * math.pi) / omega for phase, omega in crossed), default=math.inf)
 
 
-def _ends(response: Response, of) -> list[tuple[float, float]]:
-    """|of(L)| at omega = 0 and at infinity."""
-    ends = zip(_limits(response), (0.0, math.inf), strict=True)
-    return [(abs(of(L if math.isfinite(L) else 1e300)), omega) for L, omega in ends]
-
-
-def _peak(peaks: np.ndarray, omegas: np.ndarray, ends, envelope: float) -> tuple[float, float]:
-    """The largest of the peaks, the ends and the envelope beyond the grid, and where it is."""
-    best = max(ends)
-    if peaks.size and peaks.max() > best[0] * (1 + ROUNDING):  # else it is rounding on the way to an end
-        at = int(np.argmax(peaks))
-        best = float(peaks[at]), float(omegas[at])
+def _peak(peaks: np.ndarray, omegas: np.ndarray, ends: list[float], envelope: float) -> tuple[float, float]:
+    """The largest of the peaks, of the values at omega = 0 and at infinity, and of the envelope, and where it is."""
+    best = max(zip(ends, (0.0, math.inf), strict=True))
+    highest = max(zip(peaks.tolist(), omegas.tolist(), strict=True), default=best)
+    if highest[0] > best[0] * (1 + ROUNDING):  # else it is rounding on the way to an end
+        best = highest
     return (envelope, math.inf) if envelope > best[0] * (1 + BEYOND) else best

@@ -12,12 +12,11 @@ instead. Newton on 1 + L(s) = 0 takes all to full precision, and drops what is n
 the controller cancels are not in 1 + L: they are known exactly, and reported as well.
 """
 
-from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.factors import Factored, factors
+from simc_core.factors import Factored, factors, without_common
 from simc_core.loop import Loop
 from simc_core.realisation import chain
 
@@ -101,29 +100,27 @@ def _differentiation(N: int) -> np.ndarray:
 
 def _without_common(L: Factored) -> tuple[Factored, np.ndarray]:
     """L without the factors its numerator and denominator share, and the poles these are."""
-    top, bottom = (Counter(map(tuple, rows.tolist())) for rows in (L.num, L.den))
-    reduced = Factored(L.gain, factors(*(top - bottom).elements()), factors(*(bottom - top).elements()), L.theta)
-    return reduced, Factored(1.0, factors(), factors(*(top & bottom).elements())).poles
+    top, bottom, common = without_common([*map(tuple, L.num.tolist())], [*map(tuple, L.den.tolist())])
+    return Factored(L.gain, factors(*top), factors(*bottom), L.theta), Factored(1.0, factors(), factors(*common)).poles
 
 
 def _polished(L: Factored, start: np.ndarray) -> list[complex]:
     """Solutions of 1 + L = 0 in the upper half plane that Newton finds from `start`, each once."""
-    s = start[start.imag >= 0].astype(complex)  # a copy
-    step = np.zeros_like(s)
+    s, rows, found = start[start.imag >= 0].astype(complex), _in_pairs(L), []
     with np.errstate(all="ignore"):
-        for _ in range(NEWTON_STEPS):
-            value = L(s)
-            step = (1 + value) / (value * _log_derivative(L, s))
-            s = s - step
-            if np.all(np.abs(step) <= SETTLED * np.abs(s)):
-                break
-        good = np.abs(step) <= 1e-9 * np.abs(s)
-    found: list[complex] = []
-    for value in s[good]:
-        value = complex(value.real, 0.0 if abs(value.imag) <= 1e-10 * abs(value) else abs(value.imag))
-        if all(abs(value - other) > 1e-7 * abs(value) for other in found):
-            found.append(value)
-    return found
+        for left in range(NEWTON_STEPS - 1, -1, -1):
+            value, slope = _with_log_derivative(L, rows, s)
+            step = (1 + value) / (value * slope)
+            kept = np.isfinite(s - step)
+            s, step = (s - step)[kept], step[kept]
+            settled = np.abs(step) <= (SETTLED if left else 1e-9) * np.abs(s)
+            found.append(s[settled])
+            s = s[~settled]
+    s = np.concatenate(found)
+    size, imag = np.abs(s), np.abs(s.imag)
+    s = s.real + 1j * np.where(imag <= 1e-10 * size, 0.0, imag)
+    same = np.abs(s[:, None] - s) <= 1e-7 * size
+    return s[~np.tril(same, -1).any(axis=1)].tolist()
 
 
 def _chain_start(L: Factored, count: int) -> np.ndarray:
@@ -140,13 +137,22 @@ def _chain_start(L: Factored, count: int) -> np.ndarray:
     return np.concatenate([s[np.isfinite(s)], FAR_LEFT / L.theta])
 
 
-def _log_derivative(L: Factored, s: np.ndarray) -> np.ndarray:
-    """L'/L."""
-    total = np.full_like(s, -L.theta)
-    for rows, sign in ((L.num, 1), (L.den, -1)):
-        for a, b, c in rows:
-            total += sign * (2 * a * s + b) / ((a * s + b) * s + c)
-    return total
+def _in_pairs(L: Factored) -> np.ndarray:
+    """Factors of numerator and denominator, as many of each, shape (3, 2, pairs, 1)."""
+    rows = np.zeros((2, max(len(L.num), len(L.den)), 3))
+    rows[:, :, 2] = 1.0
+    rows[0, : len(L.num)], rows[1, : len(L.den)] = L.num, L.den
+    return np.moveaxis(rows, 2, 0)[..., None]
+
+
+def _with_log_derivative(L: Factored, rows: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """L and L'/L at s, shape (n,); rows: its factors in pairs, so that no partial product overflows."""
+    a, b, c = rows
+    linear = a * s + b
+    q = linear * s + c
+    top, bottom = ((a * s + linear) / q).sum(axis=1)
+    value = np.multiply.reduce(q[0] / q[1], axis=0)
+    return L.gain * value * np.exp(-L.theta * s), top - bottom - L.theta
 
 
 def _described(s: complex, cancelled: bool) -> ClosedLoopPole:

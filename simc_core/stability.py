@@ -15,17 +15,18 @@ Verduyn Lunel 1993, strong stability).
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import singledispatch
+from functools import lru_cache, singledispatch
 from typing import Literal
 
-from simc_core.characteristic import characteristic, shifted
+from simc_core.characteristic import Characteristic, characteristic, shifted
 from simc_core.errors import InvalidParameter
 from simc_core.factors import Factored
 from simc_core.loop import Loop
-from simc_core.winding import winding
+from simc_core.winding import winding, windings
 
 SAME = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
+NEUTRAL_TURNS, MOST_TURNS = 1e3, 1e6  # omega theta up to which a zero on the axis is taken for the only one near
 
 Verdict = Literal["stable", "unstable", "marginal"]
 
@@ -46,7 +47,21 @@ class Stability:
 @singledispatch
 def stability(loop: Loop) -> Stability:
     """Verdict on a single loop. Raises InvalidParameter where it is ill-posed, L(inf) = -1 without dead time."""
+    return _remembered(loop)
+
+
+@lru_cache(maxsize=64)
+def _remembered(loop: Loop) -> Stability:
+    """margins, performance and pages all ask for the same few loops."""
     return count_unstable([loop.L])
+
+
+def stability_many(loops: Sequence[Loop]) -> list[Stability]:
+    """Verdicts on single loops, worked on together: cheapest where all have the same plant and form of controller.
+
+    Raises InvalidParameter where `stability` does for one of them.
+    """
+    return _verdicts([[loop.L] for loop in loops])
 
 
 def count_unstable(terms: Sequence[Factored]) -> Stability:
@@ -56,25 +71,49 @@ def count_unstable(terms: Sequence[Factored]) -> Stability:
     1 + Lb + Lb Ca Ga: Lb's poles count once. Nothing is cancelled.
     Raises InvalidParameter: ill-posed loops, and those that would cost more than winding.MOST_SEGMENTS.
     """
-    terms = [term for term in terms if term.gain]
-    f = characteristic(terms)
+    return _verdicts([terms])[0]
+
+
+def _verdicts(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
+    """count_unstable of each."""
+    loops = [[term for term in terms if term.gain] for terms in loops]
+    functions = [characteristic(terms) for terms in loops]
+    found = [_at_infinity(f) for f in functions]
+    open_ = [i for i, verdict in enumerate(found) if verdict is None]
+    for i, turns in zip(open_, windings([functions[i] for i in open_]), strict=True):
+        neutral = functions[i].neutral
+        if turns.zeros is None:
+            found[i] = _beside(loops[i], turns.touches, neutral)
+        else:
+            found[i] = Stability("unstable" if turns.zeros else "stable", turns.zeros, neutral)
+    return found
+
+
+def _at_infinity(f: Characteristic) -> Stability | None:
+    """The verdict where |L(inf)| decides on it. Raises InvalidParameter for ill-posed loops."""
+    neutral = f.neutral
     if f.delayed == 0 and abs(f.limit) <= SAME:
         raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: the loop is ill-posed")
-    if abs(f.neutral - 1) <= SAME:
-        return Stability("marginal", 0, f.neutral)
-    if f.neutral > 1:
-        return Stability("unstable", math.inf, f.neutral)
-    found = winding(f)
-    if found.zeros is None:
-        return _beside(terms, found.touches, f.neutral)
-    return Stability("unstable" if found.zeros else "stable", found.zeros, f.neutral)
+    if abs(neutral - 1) <= SAME:
+        return Stability("marginal", 0, neutral)
+    return Stability("unstable", math.inf, neutral) if neutral > 1 else None
 
 
 def _beside(terms: Sequence[Factored], touches: float, neutral: float) -> Stability:
-    """Verdict on a loop with zeros on the axis: those to the right of them are counted on a contour beside it."""
+    """Verdict on a loop with zeros on the axis: those to the right of them are counted on a contour beside it.
+
+    Raises InvalidParameter where the dead time turns so often up to there that zeros crowd about the axis.
+    """
+    turns = touches * max((term.theta for term in terms), default=0.0)
     sigma = ASIDE * (touches or _slowest(terms))
-    zeros = winding(characteristic([shifted(term, sigma) for term in terms])).zeros
-    return Stability("unstable", zeros, neutral) if zeros else Stability("marginal", 0, neutral)
+    most = NEUTRAL_TURNS if neutral else MOST_TURNS
+    found = winding(characteristic([shifted(term, sigma) for term in terms])) if turns <= most else None
+    if found is None or found.zeros is None:
+        raise InvalidParameter(
+            f"omega theta of poles on the imaginary axis must be <= {most:g}, got {turns:g} (|L(inf)| = "
+            f"{neutral:.12g}): the poles beside them cannot be told from these in double precision"
+        )
+    return Stability("unstable", found.zeros, neutral) if found.zeros else Stability("marginal", 0, neutral)
 
 
 def _slowest(terms: Sequence[Factored]) -> float:

@@ -15,9 +15,16 @@ ORDER = [
     {"plant", "models", "controllers", "realisation", "grid"},
     {"exact", "parse", "notation", "plant_step", "simc", "loop"},
     {"reduction", "dynamics", "zeros", "zeros_1998", "split", "story", "advice"},
-    {"characteristic", "winding", "logresponse", "crossings"},
+    {"characteristic", "term_table", "segments"},
+    {"segment_bounds", "winding", "logresponse", "search_grid", "crossings"},
     {"stability", "poles", "margins", "laurent", "nested"},
-    {"half_rule", "simulation", "model_error"},  # the half rule judges its candidates by their Ms
+    {
+        "half_rule",
+        "simulation",
+        "piece_zeros",
+        "metrics",
+        "model_error",
+    },  # the half rule judges its candidates by their Ms
     {"performance", "robustness"},
     {"sweep", "tau_table", "cascade", "direct_synthesis", "fastest", "cascade_design", "nested_performance"},
     {"examples", "references", "cascade_examples"},

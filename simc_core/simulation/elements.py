@@ -10,15 +10,13 @@ is: a Chebyshev expansion of e^{lambda h s} of p terms leaves about that much of
 """
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
 from simc_core.errors import InvalidParameter
-from simc_core.simulation.system import DelaySystem
 
-P = 16  # nodes of an element
+P = 20  # nodes of an element
 TOLERANCE = 1e-14
 MOST_ELEMENTS = 4000
 
@@ -44,32 +42,11 @@ _INTEGRALS = np.array(
 COLLOCATION = _INTEGRALS @ TO_CHEBYSHEV  # a_ij
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Element:
-    """Linear maps of one element: columns are (x_0 (n), w at the nodes (m p), v (2)).
+def mesh(modes: np.ndarray, length: float) -> np.ndarray:
+    """Lengths of elements that fill `length` after a jump at its start which excites `modes` (complex, rad per time).
 
-    states: (p, n, n + m p + 2), the states at the nodes; the last node is the end.
+    Powers of two of `length`, growing.
     """
-
-    states: np.ndarray
-
-
-def element(system: DelaySystem, h: float) -> Element:
-    """The element of length h."""
-    n, m = system.B.shape
-    known = np.zeros((P, n, n + m * P + system.E.shape[1]))
-    known[:, :, :n] = np.eye(n)
-    for j in range(m):
-        known[:, :, n + j * P : n + (j + 1) * P] = h * np.einsum("ij,n->inj", COLLOCATION, system.B[:, j])
-    known[:, :, n + m * P :] = h * NODES[:, None, None] * system.E
-    matrix = np.eye(P * n) - h * np.kron(COLLOCATION, system.A)
-    solved = np.linalg.solve(matrix, known.reshape(P * n, -1)) if n else known.reshape(0, known.shape[2])
-    return Element(solved.reshape(P, n, -1))
-
-
-def mesh(A: np.ndarray, length: float) -> np.ndarray:
-    """Lengths of elements that fill `length` after a jump at its start; powers of two of it, growing."""
-    modes = np.linalg.eigvals(A) if len(A) else np.zeros(0)
     size = np.abs(modes)
     modes, size = modes[size * length > 1e-3], size[size * length > 1e-3]
     if not len(modes):

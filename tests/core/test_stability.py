@@ -17,9 +17,10 @@ from simc_core import (
     count_unstable,
     stability,
 )
-from simc_core.characteristic import shifted
+from simc_core.characteristic import characteristic, shifted
 from simc_core.factors import Factored, factors
 from simc_core.poles import rightmost
+from simc_core.winding import MOST_SEGMENTS, winding
 
 
 def verdict(plant: Plant, controller) -> tuple[str, int | float]:
@@ -168,9 +169,60 @@ def test_several_delays_in_closed_form():
         assert abs(verdicts[1] - verdicts[0]) == 2
 
 
-def test_too_much_work_is_refused():
-    with pytest.raises(InvalidParameter, match="segments"):
-        stability(Loop(Plant(1 - 1e-8, 1.0, (1.0,), (0.5,)), SeriesPid(2.0, math.inf)))
+def chain(off: float) -> Loop:
+    """L = 2 (1 - off) (0.5 s + 1)/(s + 1) e^{-s}: |L| falls from 2 to |L(inf)| = 1 - off."""
+    return Loop(Plant(1 - off, 1.0, (1.0,), (0.5,)), SeriesPid(2.0, math.inf))
+
+
+@pytest.mark.parametrize("off", [0.3, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6])
+def test_near_neutral_loops_are_counted_with_little_work(off):
+    """A pair to the right for every omega with arg L = -pi (2 m + 1) and |L| > 1, omega^2 < (4 g - 1)/(1 - g)."""
+    g = (1 - off) ** 2
+    last = math.sqrt((4 * g - 1) / (1 - g))
+    turned = (last + math.atan(last) - math.atan(last / 2)) / math.pi
+    assert stability(chain(off)).unstable_poles == 2 * math.floor((turned + 1) / 2)
+    assert winding(characteristic([chain(off).L])).work < 400
+
+
+@pytest.mark.parametrize("off", [1e-1, 1e-3, 1e-6, 1e-9, 1e-11])
+def test_near_neutral_loops_that_never_reach_one_are_stable(off):
+    """|L| rises to 1 - off, or is 1 - off everywhere: no delay makes them unstable."""
+    for plant in (Plant((1 - off) / 4, 3.0, (1.0,), (2.0,)), Plant((1 - off) / 2, 0.1)):
+        loop = Loop(plant, SeriesPid(2.0, math.inf))
+        assert stability(loop).verdict == "stable"
+        assert winding(characteristic([loop.L])).work < 400
+
+
+def test_near_neutral_loops_with_complex_roots_take_more_work_and_are_refused_beyond_a_stated_amount():
+    """The bounds of quadratic factors are not as close."""
+
+    def loop(off: float) -> Loop:
+        return Loop(
+            Plant((1 - off) / 4, 1.0, lag_pairs=((1.0, 0.9),), lead_pairs=((2.0, 0.5),)), SeriesPid(1.0, math.inf)
+        )
+
+    for off in (1e-1, 1e-2, 1e-3):
+        assert stability(loop(off)).verdict == "stable"
+        assert winding(characteristic([loop(off).L])).work <= MOST_SEGMENTS
+    for off in (1e-4, 1e-6, 1e-9):
+        with pytest.raises(InvalidParameter, match=f"<= {MOST_SEGMENTS} segments, got"):
+            stability(loop(off))
+
+
+@pytest.mark.parametrize(("theta", "T", "gain"), [(5.5e4, 215.4, 2.3), (1e3, 30.0, 0.7), (2.0, 5.0, 3.0)])
+def test_millions_of_unstable_poles_are_counted(theta, T, gain):
+    """L = gain (T s + 1) e^{-theta s}/(s (0.05 s + 1)): a pair for every turn of arg L past -pi while |L| > 1."""
+    slope = 1 - (gain * T) ** 2
+    x = (-slope + math.sqrt(slope**2 + 4 * 0.05**2 * gain**2)) / (2 * 0.05**2)  # omega^2 where |L| = 1
+    last = math.sqrt(x)
+    turned = (theta * last + math.pi / 2 + math.atan(0.05 * last) - math.atan(T * last)) / math.pi
+    loop = Loop(Plant(gain, theta, (0.05,), (T,), integrators=1), SeriesPid(1.0, math.inf))
+    assert stability(loop).unstable_poles == 2 * math.floor((turned + 1) / 2)
+
+
+def test_too_many_turns_on_the_axis_are_refused():
+    with pytest.raises(InvalidParameter, match=r"omega theta .* must be <= 1000, got .* = 0.99999999"):
+        stability(chain(1e-10))
 
 
 RESOLVED = 12  # unstable poles that the discretised generator gets right however fast they oscillate

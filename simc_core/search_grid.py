@@ -1,0 +1,144 @@
+"""The frequencies at which loop transfer functions are looked at for crossings and peaks.
+
+GRID_PER_DECADE nodes per decade, clusters at lightly damped roots, and steps of theta omega <= PHASE_STEP wherever
+|L| is large enough to matter. Where it is not: |S| <= 1/(1 - |L|) and |T| <= |L|/(1 - |L|), so that a peak seen on the
+grid excludes all frequencies with |L| below a level.
+
+A loop with |L(inf)| near 1 never gets below the level: the grid ends at MOST_NODES, and beyond it 1/(1 - |L|)
+itself is the peak, up to (theta omega)^-2.
+
+The grids of several loops stand in one row, with the number of the loop beside each node (segments.py).
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.logresponse import Logs, Response, sensitivities
+from simc_core.segments import geometric, ragged
+
+GRID_PER_DECADE = 24
+PHASE_STEP = 0.3
+MOST_NODES = 12_000  # of one loop
+LIGHT = 0.35  # damping below which a root gets a cluster
+CLUSTER = 1.5 ** np.arange(-4, 40)  # offsets from a resonance, in units of its half width
+NARROWEST = 1e-7  # half width of an undamped root, relative
+
+Evaluate = Callable[[np.ndarray, np.ndarray], Logs]  # log L and its derivatives from omega and the number of the loop
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Grid:
+    """omega, owner: shape (N,), omega ascending for each loop.   samples: log L, its two derivatives, S, T, (5, N).
+
+    resolved: shape (N-1,), False where the phase of the dead time may turn unseen, or between two loops.
+    inside: False only between two loops.   envelopes: by loop, bounds of |S| and |T| beyond the grid, 0 if it
+    reaches far enough.
+    """
+
+    omega: np.ndarray
+    owner: np.ndarray
+    samples: np.ndarray
+    resolved: np.ndarray
+    inside: np.ndarray
+    envelopes: list[tuple[float, float]]
+
+
+def search_grid(responses: Sequence[Response], evaluate: Evaluate) -> Grid:
+    """The grid of the module docstring for one or several loops."""
+    omega, owner, ends = _base_grid(responses)
+    samples = sampled(evaluate, omega, owner)
+    thetas = np.array([response.theta for response in responses])
+    envelopes = [(0.0, 0.0)] * len(responses)
+    if thetas.any():
+        size, of = samples[0].real, owner[1:]
+        level, last = _level(thetas, omega, owner, ends, samples)
+        matters = (np.maximum(size[:-1], size[1:]) >= level[of]) | (omega[1:] <= last[of])
+        pieces = np.where(matters, np.ceil((omega[1:] - omega[:-1]) * thetas[of] / PHASE_STEP), 1)
+        pieces = np.maximum(pieces, 1)  # at least, and between two loops
+        total = pieces.cumsum()
+        within = total <= MOST_NODES + np.concatenate([[0], total[ends[:-1]]])[of]
+        if not within.all():
+            envelopes = _envelopes(len(responses), of, size[1:], matters & ~within)
+            pieces[~within] = 1
+        omega, owner, samples = _refined(evaluate, omega, owner, samples, pieces.astype(int))
+    inside = owner[1:] == owner[:-1]
+    resolved = inside & (thetas[owner[1:]] * (omega[1:] - omega[:-1]) <= 1.01 * PHASE_STEP)
+    return Grid(omega, owner, samples, resolved, inside, envelopes)
+
+
+def sampled(evaluate: Evaluate, omega: np.ndarray, owner: np.ndarray) -> np.ndarray:
+    """Rows log L, its first and second derivative, S, T."""
+    logs = evaluate(omega, owner)
+    return np.array([*logs, *sensitivities(logs[0])])
+
+
+def _level(thetas, omega, owner, ends, samples) -> tuple[np.ndarray, np.ndarray]:
+    """For each loop: log|L| below which nothing matters, and the frequency up to which everything does.
+
+    Beyond the last gain crossing the phase falls by 2 pi within two turns of the dead time: there is a phase crossing.
+    """
+    starts = np.concatenate([[0], ends[:-1] + 1])
+    size = samples[0].real
+    Ms, Mt = np.maximum.reduceat(np.abs(samples[3:]), starts, axis=1)
+    start = np.maximum.reduceat(omega * (size >= 0), starts)
+    last = start + 4 * math.pi / np.maximum(thetas, 1e-300)
+    after = starts + np.add.reduceat(omega < last[owner], starts, dtype=int)
+    level = np.minimum(np.log1p(-1 / np.maximum(Ms, 1 + 1e-6)), -np.log1p(1 / Mt))
+    return np.minimum(level, size[np.minimum(after, ends)]), last
+
+
+def _envelopes(n: int, owner: np.ndarray, size: np.ndarray, beyond: np.ndarray) -> list[tuple[float, float]]:
+    """1/(1 - x) and x/(1 - x), x the largest |L| of each loop where the grid is too coarse; size: log|L|."""
+    largest = np.full(n, -np.inf)
+    np.maximum.at(largest, owner[beyond], size[beyond])
+    x = np.exp(np.minimum(largest, -1e-15))
+    return list(zip((1 / (1 - x) * (x > 0)).tolist(), (x / (1 - x)).tolist(), strict=True))
+
+
+def _refined(evaluate: Evaluate, omega, owner, samples, pieces: np.ndarray):
+    """Interval i in pieces[i] equal parts; omega, owner and samples of all nodes."""
+    at = np.flatnonzero(pieces > 1)
+    interval, place = ragged(pieces[at] - 1)
+    interval = at[interval]
+    fine = omega[interval] + (omega[interval + 1] - omega[interval]) * ((place + 1) / pieces[interval])
+    begins = np.concatenate([[0], pieces.cumsum()])  # the places of the old nodes
+    order = np.empty(omega.size + fine.size, dtype=int)
+    order[begins] = np.arange(omega.size)
+    order[begins[interval] + place + 1] = np.arange(omega.size, order.size)
+    new = sampled(evaluate, fine, owner[interval])
+    return (
+        np.concatenate([omega, fine])[order],
+        np.concatenate([owner, owner[interval]])[order],
+        np.concatenate([samples, new], axis=1).take(order, axis=1),
+    )
+
+
+def _base_grid(responses: Sequence[Response]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Two decades beyond all corners at either end, clusters where the damping is light; omega, owner, last indices."""
+    ranges, clusters = [], []
+    for response in responses:
+        corners = [abs(root) for root in response.roots]
+        corners += [abs(gain) ** (-1 / power) for gain, power in (response.at_zero, response.at_infinity) if power]
+        if response.theta:
+            corners += [1 / response.theta, 4 * math.pi / response.theta]
+        ranges.append((1e-2 * min(corners, default=1.0), 1e2 * max(corners, default=1.0)))
+        clusters.append([root for root in response.roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)])
+    ranges = np.array(ranges)
+    omega, owner, ends = geometric(ranges[:, 0], ranges[:, 1], GRID_PER_DECADE)
+    if any(clusters):
+        near = [np.concatenate([_cluster(root) for root in roots] or [[]]) for roots in clusters]
+        counts = np.array([each.size for each in near])
+        omega, owner = np.concatenate([omega, *near]), np.concatenate([owner, ragged(counts)[0]])
+        order = np.lexsort((omega, owner))
+        omega, owner, ends = omega[order], owner[order], ends + counts.cumsum()
+    return omega, owner, ends
+
+
+def _cluster(root: complex) -> np.ndarray:
+    """Nodes about a resonance, close together at its top."""
+    offsets = max(abs(root.real), NARROWEST * abs(root)) * CLUSTER
+    near = offsets[offsets < 0.5 * root.imag]
+    return np.concatenate([root.imag - near, root.imag + near])

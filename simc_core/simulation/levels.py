@@ -1,0 +1,120 @@
+"""Elements of theta 2^level and the mesh of one interval, with the interpolations that a dead time needs; all cached.
+
+What a plant does on an element does not depend on the tuning (measured.py), and where the nodes of one element meet
+those of another depends on their levels alone. Without dead time the unit is the plant's fastest time constant.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from simc_core.plant import Plant
+from simc_core.simulation.elements import NODES, TO_CHEBYSHEV, P, mesh
+from simc_core.simulation.measured import SIGNALS, Measured
+
+AHEAD = 8  # levels made at once
+EYE = np.eye(P)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Level:
+    """One element. length, nodes: from its start.   B: (P, P), its own z at t - theta.
+
+    signals: (4 P, n + P), states at the start and w -> y, p, p', int p at the nodes.
+    outcome: (P + 1 + n, n + P), -> y at the nodes, int p at the end, states at the end.
+    """
+
+    length: float
+    nodes: np.ndarray
+    B: np.ndarray
+    signals: np.ndarray
+    outcome: np.ndarray
+
+
+class Levels:
+    """Of one plant behind one filter. mesh: levels of the elements of one interval, short at its start.
+
+    finer: how often these are halved.
+    """
+
+    def __init__(self, chain: Measured, finer: int):
+        self.chain, self.theta = chain, chain.theta
+        size = np.abs(chain.modes)
+        self.unit = chain.theta or float(1 / np.max(size) if size.any() else 1.0)
+        self._made: dict[int, Level] = {}
+        parts = np.repeat(mesh(chain.modes, chain.theta) / chain.theta, 2**finer) / 2**finer if chain.theta else ()
+        self.shape = tuple(float(part) for part in parts)
+        self.mesh = tuple(round(math.log2(part)) for part in self.shape)
+        self._make(sorted({*self.mesh, *range(1, 1 + AHEAD)}))
+
+    def __getitem__(self, level: int) -> Level:
+        if level not in self._made:
+            self._make([each for each in range(level, level + AHEAD) if each not in self._made])
+        return self._made[level]
+
+    def _make(self, wanted: list[int]) -> None:
+        lengths = self.unit * 2.0 ** np.array(wanted)
+        outputs, ends = self.chain.elements(lengths)
+        outcome = np.concatenate([outputs[:, 0], outputs[:, 3, -1:], ends], axis=1)
+        signals = outputs.reshape(len(wanted), SIGNALS * P, -1)
+        for i, (each, h) in enumerate(zip(wanted, lengths.tolist(), strict=True)):
+            B = _within(each) if self.theta else EYE
+            self._made[each] = Level(h, h * NODES, B, signals[i], outcome[i])
+
+    def history(self, before: int, level: int) -> np.ndarray:
+        """From z at the nodes of the element before to z(t - theta) at those of the next, as far as it lies there.
+
+        Level 0 is the whole mesh, on either side.
+        """
+        if before:
+            return _from_element(before, level, () if level else self.shape)
+        return _from_mesh(self.shape, level)
+
+
+@lru_cache(maxsize=64)
+def levels(plant: Plant, tau_F: float, derivative: bool, finer: int = 0) -> Levels:
+    """Raises InvalidParameter as Measured does."""
+    return Levels(Measured(plant, tau_F, derivative), finer)
+
+
+@lru_cache(maxsize=128)
+def _within(level: int) -> np.ndarray:
+    own = NODES * 2.0**level > 1
+    B = np.zeros((P, P))
+    B[own] = _reading(2 * (NODES[own] - 2.0**-level) - 1)
+    return B
+
+
+@lru_cache(maxsize=256)
+def _from_element(before: int, level: int, shape: tuple[float, ...]) -> np.ndarray:
+    s = _places(shape) if shape else NODES * 2.0**level  # in theta, from the start of the next element
+    known = s <= 1
+    H = np.zeros((len(s), P))
+    H[known] = _reading(1 - 2 * (1 - s[known]) * 2.0**-before)
+    return H
+
+
+@lru_cache(maxsize=64)
+def _from_mesh(shape: tuple[float, ...], level: int) -> np.ndarray:
+    s = NODES * 2.0**level
+    ends = np.cumsum(shape)
+    H = np.zeros((P, len(shape) * P))
+    for i in np.flatnonzero(s <= 1).tolist():
+        e = min(int(np.searchsorted(ends, s[i])), len(shape) - 1)
+        x = 2 * (s[i] - ends[e] + shape[e]) / shape[e] - 1
+        H[i, e * P : (e + 1) * P] = _reading(np.array([min(x, 1.0)]))[0]
+    return H
+
+
+def _places(shape: tuple[float, ...]) -> np.ndarray:
+    """Nodes of the mesh in units of theta."""
+    lengths = np.array(shape)
+    return ((np.cumsum(lengths) - lengths)[:, None] + lengths[:, None] * NODES).ravel()
+
+
+def _reading(x: np.ndarray) -> np.ndarray:
+    """Values at x in [-1, 1] from those at the nodes."""
+    return chebyshev.chebvander(x, P - 1) @ TO_CHEBYSHEV
