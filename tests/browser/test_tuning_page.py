@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.tools import fits, idle, picture
+from tests.browser.tools import fits, idle, nyquist_scale, picture
 
 EXAMPLE = "exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"  # [V06] example 1
 PANELS = ("y", "u", "nyquist", "sensitivity")
@@ -60,14 +60,7 @@ def test_pinning_works_from_the_keyboard_and_is_drawn(key, server, open_page):
 def test_nyquist_is_drawn_one_to_one_and_figures_export_as_svg(server, open_page):
     page = figures(open_page, server)
     panel(page, "nyquist").locator(".main-svg").first.wait_for()
-    scale = page.evaluate(
-        """() => {
-            const layout = document.querySelector('.st-key-panel_nyquist .js-plotly-plot')._fullLayout;
-            const per = axis => axis._length / (axis.range[1] - axis.range[0]);
-            return per(layout.xaxis) / per(layout.yaxis);
-        }"""
-    )
-    assert scale == pytest.approx(1, rel=1e-6)
+    assert nyquist_scale(page) == pytest.approx(1, rel=1e-6)
     panel(page, "nyquist").hover()
     with page.expect_download() as download:
         panel(page, "nyquist").locator("[data-title*='Download']").click()

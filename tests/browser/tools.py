@@ -86,6 +86,17 @@ def fits(page: Page) -> bool:
     return page.evaluate("document.querySelector('[data-testid=stMain]').scrollWidth <= innerWidth")
 
 
+def nyquist_scale(page: Page) -> float:
+    """Pixels per unit along the real axis of the Nyquist panel, over those along the imaginary one."""
+    return page.evaluate(
+        """() => {
+            const layout = document.querySelector('.st-key-panel_nyquist .js-plotly-plot')._fullLayout;
+            const per = axis => axis._length / (axis.range[1] - axis.range[0]);
+            return per(layout.xaxis) / per(layout.yaxis);
+        }"""
+    )
+
+
 def watch(page: Page, faults: list[str]) -> None:
     def console(message) -> None:
         where = message.location.get("url", "")

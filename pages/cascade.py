@@ -1,0 +1,51 @@
+"""Two loops, one inside the other: design both, see what the inner one is good for."""
+
+import streamlit as st
+
+from pages.common import cascade_guards, cascade_widgets, guards, header
+from pages.common.cascade_diagram import diagram
+from pages.common.cascade_pairs import pairs_view
+from pages.common.cascade_panels import frequencies, panels
+from pages.common.cascade_readout import readout
+from pages.common.cascade_settings import settings
+from pages.common.cascade_study import CascadeStudy, attempt
+from pages.common.cascade_windup import windup_view
+
+
+def figures(present: CascadeStudy) -> None:
+    """The strip and the field of four."""
+    readout(present)
+    panels(present)
+
+
+VIEWS = {"Figures": figures, "Bode": frequencies, "Settings": settings, "Windup": windup_view}
+PAIRS = "Paper's pairs"
+
+design = header.show("cascade")
+present, refusal = attempt(design.cascade)
+picture = st.container()
+with st.container(key="cascade"):
+    controls, view = st.columns([4, 11], gap="medium")
+with controls:
+    cascade_widgets.blocks()
+    cascade_widgets.method()
+    cascade_widgets.loops(present)
+    form = cascade_widgets.form(present)
+    if present is not None:
+        cascade_guards.show(present)
+with picture:
+    if present is not None:
+        diagram(present, form)
+with view:
+    if refusal is not None:
+        with guards.spoken():
+            raise refusal
+        cascade_guards.offer_synthesis(refusal)
+    *tabs, pairs = st.tabs((*VIEWS, PAIRS), key="cascade_views", on_change="rerun")  # only the open one is made
+    for tab, show in zip(tabs, VIEWS.values(), strict=True):
+        if tab.open and present is not None:
+            with tab, cascade_guards.viewed():
+                show(present)
+    if pairs.open:
+        with pairs:
+            pairs_view()
