@@ -18,7 +18,7 @@ def real(name: str, value, low: float = -math.inf, high: float = math.inf) -> fl
 
     Raises InvalidParameter: the message names the field, the bound and the value.
     """
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if type(value) is not float and (isinstance(value, bool) or not isinstance(value, Real)):
         raise InvalidParameter(f"{name} must be a number, got {_shown(value)}")
     number = float(value)
     if not math.isfinite(number):

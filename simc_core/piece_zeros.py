@@ -88,4 +88,7 @@ def _polished(own: np.ndarray, row: np.ndarray, low, high, first, last) -> Place
 
 
 def _basis(x: np.ndarray) -> np.ndarray:
-    return np.cos(DEGREES * np.arccos(x)[:, None])
+    """T_k(x) = Re (x + j sqrt(1 - x^2))^k."""
+    powers = np.empty((len(x), P), dtype=complex)
+    powers[:, 0], powers[:, 1:] = 1.0, (x + 1j * np.sqrt(1 - x * x))[:, None]
+    return np.multiply.accumulate(powers, axis=1).real

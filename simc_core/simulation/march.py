@@ -124,8 +124,8 @@ class _Walk:
         if self.t_end is not None:
             count = min(count, math.floor(self.t_end / self.theta * (1 + 1e-12)) + 1)
         for _ in range(max(count - 1, 0)):
-            self._keep(everyone, slice(None), 0, self.theta, *self._interval(everyone, slice(None), 0))
-        self._groups({(0, 0): everyone})
+            self._keep(everyone, slice(None), 0, self.theta, *self._interval(everyone, slice(None)))
+        self._groups({(True, 0): everyone})
 
     def _degree(self) -> int:
         """Least relative degree of the loops."""
@@ -138,9 +138,9 @@ class _Walk:
         """On at every tuning's own pace."""
         work, most = 0, MOST_TO_REST if self.t_end is None else MOST_TO_END
         while self.active and work < most:
-            groups: dict[tuple[int, int], list[int]] = {}
+            groups: dict[tuple[bool, int], list[int]] = {}
             for i in self.active:
-                groups.setdefault((self.before[i], self.level[i]), []).append(i)
+                groups.setdefault((self.before[i] == 0, self.level[i]), []).append(i)
             self._groups(groups)
             on_mesh = self.theta > 0 and any(level == 0 for _, level in groups)
             work += len(self.levels.mesh) if on_mesh else 1
@@ -150,20 +150,20 @@ class _Walk:
                 f"{min(self.t[i] for i in self.active):.4g}: the loop oscillates too fast for it"
             )
 
-    def _groups(self, groups: dict[tuple[int, int], list[int]]) -> None:
-        for (before, level), which in groups.items():
+    def _groups(self, groups: dict[tuple[bool, int], list[int]]) -> None:
+        """One stretch each. Keys: whether it follows an interval on the mesh, and its level."""
+        for (_, level), which in groups.items():
             at = slice(None) if len(which) == self.n else np.array(which)
             if level == 0 and self.theta:
-                self._decide(which, at, 0, self.theta, *self._interval(which, at, before))
+                self._decide(which, at, 0, self.theta, *self._interval(which, at))
             else:
-                length = self.levels[level].length
-                self._decide(which, at, level, length, *self._element(which, at, before, level))
+                self._decide(which, at, level, self.levels[level].length, *self._element(which, at, level))
 
-    def _interval(self, which: list[int], at, before: int):
+    def _interval(self, which: list[int], at):
         """One interval of theta on the mesh: w is z of the interval before. As _element."""
         x, xi, w, values = self.x[at], self.xi[at], self.z[at], []
-        if before:
-            w = self.levels.history(before, 0) @ w[:, -P:]
+        if self.before[which[0]]:
+            w = self._history(which, 0) @ w[:, -P:]
         begin = [self.t[i] for i in which]
         for e, level in enumerate(self.levels.mesh):
             known = self.law.known(at, level, begin, xi)
@@ -172,16 +172,23 @@ class _Walk:
             begin = [each + self.levels[level].length for each in begin]
         return np.concatenate(values, axis=1) if len(values) > 1 else values[0], x, xi
 
-    def _element(self, which: list[int], at, before: int, level: int):
+    def _element(self, which: list[int], at, level: int):
         """One element of theta 2^level, w and z together: y and z at its nodes (k, P, 4), x and xi at its end."""
         made, x, xi, n = self.levels[level], self.x[at], self.xi[at], self.levels.chain.n
         begin, feedback = [self.t[i] for i in which], self.law[level].feedback[at]
         known = self.law.known(at, level, begin, xi)
         right = made.B @ (known - feedback[:, :, :n] @ x)
         if self.theta:
-            right += self.levels.history(before, level) @ (self.z[at, -P:] if before else self.z[at])
+            right += self._history(which, level) @ (self.z[at, -P:] if self.before[which[0]] else self.z[at])
         w = _solved(EYE + made.B @ feedback[:, :, n:], right)
         return self._answer(at, level, begin, xi, known, x, w)
+
+    def _history(self, which: list[int], level: int) -> np.ndarray:
+        """levels.history for each tuning, one matrix where all are alike."""
+        before = [self.before[i] for i in which]
+        if before.count(before[0]) == len(before):
+            return self.levels.history(before[0], level)
+        return np.array([self.levels.history(each, level) for each in before])
 
     def _answer(self, at, level: int, begin: list[float], xi: np.ndarray, known: np.ndarray, x: np.ndarray, w):
         made, given = self.levels[level], np.concatenate([x, w], axis=1)
