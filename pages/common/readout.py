@@ -122,6 +122,8 @@ def cell_html(cell: Reading) -> str:
 def reading(label: str, value: float, more: str = "") -> Reading:
     if math.isinf(value):
         return Reading(label, "∞", "infinite: no limit", "no limit")
+    if math.isnan(value):
+        return Reading(label, "–", "not known: too near its stability limit, the loop does not come to rest in reach")
     return Reading(label, number(value, DIGITS), f"{value:.10g}", more)
 
 

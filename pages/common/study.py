@@ -1,29 +1,33 @@
 """From what the user has decided to everything the pages show of it. Pure: no streamlit."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from pages.common.design import Tuning
 from simc_core.controllers import Controller
+from simc_core.errors import NotStable
 from simc_core.grid import omega_grid
 from simc_core.half_rule import half_rule
 from simc_core.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.margins import Margins, margins
 from simc_core.models import Model, UnstableDelay
-from simc_core.performance import Performance, performance
+from simc_core.performance import Performance, StepMetrics, performance
 from simc_core.plant import Plant
 from simc_core.reduction import Reduction
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, TimeResponse, simulate
 from simc_core.sweep import dressed
 
+UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Study:
     """A tuning, the controller it leads to, and what the loop round the FULL plant does.
 
-    performance: None where the loop is not stable.
+    performance: None where the loop is not stable; all nan where it is too near its limit to come to rest.
     """
 
     tuning: Tuning
@@ -55,7 +59,14 @@ def study(plant: Plant, tuning: Tuning) -> Study:
     tau_c = tau_c_in_use(reduction.model, tuning)
     loop = Loop(plant, dressed(simc(reduction.model, tau_c), tuning.b, tuning.filter))
     judged = margins(loop)
-    return Study(tuning, reduction, tau_c, loop, judged, performance(loop) if judged.stable else None)
+    return Study(tuning, reduction, tau_c, loop, judged, _measured(loop) if judged.stable else None)
+
+
+def _measured(loop: Loop) -> Performance:
+    try:
+        return performance(loop)
+    except NotStable:  # an integral exists, but not within reach
+        return Performance(UNKNOWN, UNKNOWN)
 
 
 def tau_c_in_use(model: Model, tuning: Tuning) -> float:

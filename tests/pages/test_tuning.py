@@ -1,9 +1,15 @@
 """Tuning page: what it says, and what it must not say, without a browser."""
 
 import json
+import math
 import re
 
 import pytest
+
+from pages.common.design import Tuning
+from pages.common.readout import strip_html
+from pages.common.study import study
+from simc_core import parse_plant
 
 from .tools import address, run_page, texts
 
@@ -184,3 +190,20 @@ def test_poles_are_listed_with_their_damping():
     table = next(frame.value for frame in tuned("Compare").dataframe if "damping ζ" in frame.value)
     assert len(table) >= 2
     assert all(0 < float(zeta) <= 1 for zeta in table["damping ζ"])
+
+
+def test_a_loop_at_the_edge_of_stability_has_margins_and_no_integrals():
+    """Stable, and so slow to come to rest that nobody can wait: margins stand, metrics are left open, the page lives."""
+    plant, low, high = parse_plant("exp(-0.2s)/((5s+1)(4s+1))"), 0.01, 10.0
+
+    def tuned(tau_c: float) -> Tuning:
+        return Tuning(order=2, filter=3.0, tau_c=tau_c)
+
+    for _ in range(40):
+        middle = (low * high) ** 0.5
+        low, high = (low, middle) if study(plant, tuned(middle)).stable else (middle, high)
+    found = study(plant, tuned(high))
+    assert found.stable
+    assert found.margins.Ms > 1e4
+    assert math.isnan(found.performance.setpoint.IAE)
+    assert "not known: too near its stability limit" in strip_html(found)
