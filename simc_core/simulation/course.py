@@ -66,9 +66,9 @@ class Course:
         return found
 
 
-def course(stretches: Sequence[Stretch], n: int, at_rest: Sequence[bool]) -> Course:
+def course(stretches: Sequence[Stretch], at_rest: Sequence[bool]) -> Course:
     """Stretches sorted by tuning and time, their values as polynomials."""
-    owner, begin, length, values = [], [], [], []
+    n, owner, begin, length, values = len(at_rest), [], [], [], []
     for stretch in stretches:
         starts = [0.0, *np.cumsum(stretch.lengths)[:-1].tolist()] if len(stretch.lengths) > 1 else (0.0,)
         for e, (start, h) in enumerate(zip(starts, stretch.lengths, strict=True)):

@@ -12,8 +12,7 @@ theta 2^level take over, each tuning at its own pace. The part of w beyond theta
     w = H + B z,   z = c - Z w     =>     w = (1 + B Z)^-1 (H + B c)
 
 with H from the element before and B the interpolation at t - theta. Without dead time B = 1, H = 0.
-An element is good if the last Chebyshev coefficients of y and u are below TAIL of their largest values so far; else
-it is halved. A horizon of 10^6 dead times costs a few elements more than one of ten.
+How long an element may be, see pace.py. A horizon of 10^6 dead times costs a few elements more than one of ten.
 """
 
 import math
@@ -30,16 +29,11 @@ from simc_core.simulation.course import Course, Stretch, course
 from simc_core.simulation.elements import TO_CHEBYSHEV, P
 from simc_core.simulation.law import Law
 from simc_core.simulation.levels import EYE, levels
+from simc_core.simulation.pace import ROUNDING, TAIL, Pace
 
-TAIL = 1e-12
-ROOM = 3e-3  # of TAIL: so small a tail lets the next element be longer at once
-PATIENCE, MOST_PATIENCE = 4, 16  # elements of one length before a longer one is tried
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
-REST = 1e-11  # of the largest value: nearer than this to where it ends, a response is at rest
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
-ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors
 MOST_TO_END, MOST_TO_REST = 12_000, 6_000  # elements of one tuning, 30 us each
-LOWEST, HIGHEST = -48, 60  # levels
 LARGEST = 1e150  # an unstable response is cut off here
 WELL_POSED = 1e-12
 VALUES_AND_LAST = np.concatenate([EYE, TO_CHEBYSHEV[-2:]])  # of nodal values: these and the last two coefficients
@@ -57,7 +51,7 @@ def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Co
             walk = _Walk(plant, forms, t_end, finer)
             if walk.arrives():
                 break
-    return course(walk.stretches, len(forms), walk.at_rest)
+    return course(walk.stretches, [pace.at_rest for pace in walk.paces])
 
 
 def final_values(plant: Plant, form: ParallelPid) -> np.ndarray:
@@ -87,7 +81,7 @@ class _TooCoarse(Exception):
 
 
 class _Walk:
-    """State of the march: x (n, n_x, 2), xi (n, 2), z at the nodes of the element before; each tuning's own pace."""
+    """State of the march: x (n, n_x, 2), xi (n, 2), z at the nodes of the element before, the pace of each tuning."""
 
     def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int):
         n = len(forms)
@@ -100,10 +94,7 @@ class _Walk:
         self.x, self.xi = np.zeros((n, self.levels.chain.n, 2)), np.zeros((n, 2))
         self.z = np.zeros((n, P * max(len(self.levels.mesh), 1), 2))
         self.largest = np.full((n, 4), 1e-300)
-        self.at_rest = [False] * n
-        self.t, self.level, self.before = [0.0] * n, [0] * n, [0] * n  # before: level of the element before
-        self.good, self.patience = [0] * n, [PATIENCE] * n  # elements since the last change, and how many there must be
-        self.mark, self.away_at_mark = [0.0] * n, [math.inf] * n
+        self.paces = [Pace() for _ in range(n)]
         self.active = dict.fromkeys(range(n))
         self.stretches: list[Stretch] = []
 
@@ -140,14 +131,15 @@ class _Walk:
         while self.active and work < most:
             groups: dict[tuple[bool, int], list[int]] = {}
             for i in self.active:
-                groups.setdefault((self.before[i] == 0, self.level[i]), []).append(i)
+                pace = self.paces[i]
+                groups.setdefault((pace.before == 0, pace.level), []).append(i)
             self._groups(groups)
             on_mesh = self.theta > 0 and any(level == 0 for _, level in groups)
             work += len(self.levels.mesh) if on_mesh else 1
         if self.active and self.t_end is not None:
             raise InvalidParameter(
                 f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
-                f"{min(self.t[i] for i in self.active):.4g}: the loop oscillates too fast for it"
+                f"{min(self.paces[i].t for i in self.active):.4g}: the loop oscillates too fast for it"
             )
 
     def _groups(self, groups: dict[tuple[bool, int], list[int]]) -> None:
@@ -162,9 +154,9 @@ class _Walk:
     def _interval(self, which: list[int], at):
         """One interval of theta on the mesh: w is z of the interval before. As _element."""
         x, xi, w, values = self.x[at], self.xi[at], self.z[at], []
-        if self.before[which[0]]:
+        if self.paces[which[0]].before:
             w = self._history(which, 0) @ w[:, -P:]
-        begin = [self.t[i] for i in which]
+        begin = [self.paces[i].t for i in which]
         for e, level in enumerate(self.levels.mesh):
             known = self.law.known(at, level, begin, xi)
             own, x, xi = self._answer(at, level, begin, xi, known, x, w[:, e * P : (e + 1) * P])
@@ -175,17 +167,17 @@ class _Walk:
     def _element(self, which: list[int], at, level: int):
         """One element of theta 2^level, w and z together: y and z at its nodes (k, P, 4), x and xi at its end."""
         made, x, xi, n = self.levels[level], self.x[at], self.xi[at], self.levels.chain.n
-        begin, feedback = [self.t[i] for i in which], self.law[level].feedback[at]
+        begin, feedback = [self.paces[i].t for i in which], self.law[level].feedback[at]
         known = self.law.known(at, level, begin, xi)
         right = made.B @ (known - feedback[:, :, :n] @ x)
         if self.theta:
-            right += self._history(which, level) @ (self.z[at, -P:] if self.before[which[0]] else self.z[at])
+            right += self._history(which, level) @ (self.z[at, -P:] if self.paces[which[0]].before else self.z[at])
         w = _solved(EYE + made.B @ feedback[:, :, n:], right)
         return self._answer(at, level, begin, xi, known, x, w)
 
     def _history(self, which: list[int], level: int) -> np.ndarray:
         """levels.history for each tuning, one matrix where all are alike."""
-        before = [self.before[i] for i in which]
+        before = [self.paces[i].before for i in which]
         if before.count(before[0]) == len(before):
             return self.levels.history(before[0], level)
         return np.array([self.levels.history(each, level) for each in before])
@@ -217,7 +209,7 @@ class _Walk:
         good = [j for j, tail in enumerate(tails) if tail <= TAIL or on_mesh]
         if len(good) < k:
             for j in set(range(k)) - set(good):
-                self._shorten(which[j], level)
+                self.paces[which[j]].shorten()
             if not good:
                 return
             which, tails = [which[j] for j in good], [tails[j] for j in good]
@@ -227,8 +219,11 @@ class _Walk:
         self.largest[at] = largest
         away = self._away(at, values, largest) if self.t_end is None else tails
         for i, tail, far, size in zip(which, tails, away, largest.max(axis=1).tolist(), strict=True):
-            self._lengthen(i, tail, level)
-            if not size < LARGEST or self._arrived(i, far):
+            pace = self.paces[i]
+            pace.lengthen(tail, None if self.t_end is None else (self.t_end - pace.t) / self.levels.unit)
+            # what is asked for at t_end is the right-hand limit
+            arrived = pace.rests(far) if self.t_end is None else pace.t > self.t_end * (1 + 1e-12)
+            if arrived or not size < LARGEST:
                 del self.active[i]
 
     def _away(self, at, values: np.ndarray, largest: np.ndarray) -> list[float]:
@@ -243,39 +238,12 @@ class _Walk:
     def _keep(self, which: list[int], at, level: int, length: float, values, x, xi) -> None:
         """Enter a stretch, and go on from its end."""
         lengths = tuple(self.theta * part for part in self.levels.shape) if level == 0 and self.theta else (length,)
-        self.stretches.append(Stretch(which, [self.t[i] for i in which], lengths, values))
+        self.stretches.append(Stretch(which, [self.paces[i].t for i in which], lengths, values))
         self.x[at], self.xi[at] = x, xi
         self.z[at, -values.shape[1] :] = values[:, :, 2:]
         for i in which:
-            self.t[i] += length
-            self.before[i] = level
-
-    def _shorten(self, i: int, level: int) -> None:
-        if level <= LOWEST:
-            raise InvalidParameter("the response must have a time scale that can be resolved, got none")
-        self.level[i], self.good[i] = level - 1, 0
-        self.patience[i] = min(2 * self.patience[i], MOST_PATIENCE)
-
-    def _lengthen(self, i: int, tail: float, level: int) -> None:
-        self.good[i] += 1
-        if (tail < ROOM * TAIL or self.good[i] >= self.patience[i]) and level < HIGHEST:
-            level, self.good[i] = level + 1, 0
-            self.patience[i] = PATIENCE if tail < ROOM * TAIL else self.patience[i]
-        if self.t_end is not None:  # an unstable response is not computed far beyond its end
-            left = (self.t_end - self.t[i]) / self.levels.unit
-            level = min(level, max(math.floor(math.log2(left)), 0) if left > 0 else 0)
-        self.level[i] = level
-
-    def _arrived(self, i: int, away: float) -> bool:
-        """At t_end, or at rest: each value of the last element near where the response ends."""
-        if self.t_end is not None:
-            return self.t[i] > self.t_end * (1 + 1e-12)  # what is asked for at t_end is the right-hand limit
-        rest = away <= REST
-        if self.t[i] >= 2 * self.mark[i]:
-            rest |= 0.5 * self.away_at_mark[i] < away <= ROUNDING
-            self.mark[i], self.away_at_mark[i] = self.t[i], away
-        self.at_rest[i] = rest
-        return rest
+            self.paces[i].t += length
+            self.paces[i].before = level
 
 
 def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:

@@ -193,7 +193,7 @@ def test_poles_are_listed_with_their_damping():
 
 
 def test_a_loop_at_the_edge_of_stability_has_margins_and_no_integrals():
-    """Stable, and so slow to come to rest that nobody can wait: margins stand, metrics are left open, the page lives."""
+    """Stable, and so slow to come to rest that nobody can wait: margins stand, metrics are left open."""
     plant, low, high = parse_plant("exp(-0.2s)/((5s+1)(4s+1))"), 0.01, 10.0
 
     def tuned(tau_c: float) -> Tuning:

@@ -1,0 +1,60 @@
+"""How long the next element of a march may be, and when a tuning has arrived.
+
+An element is good if the last Chebyshev coefficients of y and u are below TAIL of their largest values so far. Their
+tail falls with the 20th power of the length: where there is ROOM below TAIL, or a length has served PATIENCE times, the
+next element is twice as long; one that is not good is halved, and then patience grows.
+"""
+
+import math
+from dataclasses import dataclass
+
+from simc_core.errors import InvalidParameter
+
+TAIL = 1e-12
+ROOM = 3e-3  # of TAIL
+PATIENCE, MOST_PATIENCE = 4, 16
+LOWEST, HIGHEST = -48, 60  # levels
+REST = 1e-11  # of the largest value: nearer than this to where it ends, a response is at rest
+ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors
+
+
+@dataclass(slots=True)
+class Pace:
+    """Of one tuning. t: where it is.   level, before: of the next element and of the one before.
+
+    good: elements since the last change of level.   mark, away_at_mark: a former time, and how far from rest it was.
+    """
+
+    t: float = 0.0
+    level: int = 0
+    before: int = 0
+    good: int = 0
+    patience: int = PATIENCE
+    mark: float = 0.0
+    away_at_mark: float = math.inf
+    at_rest: bool = False
+
+    def shorten(self) -> None:
+        """The element was not good. Raises InvalidParameter where no length is short enough."""
+        if self.level <= LOWEST:
+            raise InvalidParameter("the response must have a time scale that can be resolved, got none")
+        self.level, self.good = self.level - 1, 0
+        self.patience = min(2 * self.patience, MOST_PATIENCE)
+
+    def lengthen(self, tail: float, left: float | None) -> None:
+        """The element was good. left: what is left to the end, in units of level 0; None where there is no end."""
+        self.good += 1
+        room = tail < ROOM * TAIL
+        if (room or self.good >= self.patience) and self.level < HIGHEST:
+            self.level, self.good = self.level + 1, 0
+            self.patience = PATIENCE if room else self.patience
+        if left is not None:  # an unstable response is not computed far beyond its end
+            self.level = min(self.level, max(math.floor(math.log2(left)), 0) if left > 0 else 0)
+
+    def rests(self, away: float) -> bool:
+        """At rest, with the whole last element within `away` of where the response ends."""
+        self.at_rest = away <= REST
+        if self.t >= 2 * self.mark:
+            self.at_rest |= 0.5 * self.away_at_mark < away <= ROUNDING
+            self.mark, self.away_at_mark = self.t, away
+        return self.at_rest
