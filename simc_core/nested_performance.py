@@ -6,13 +6,14 @@ import numpy as np
 
 from simc_core.errors import NotStable
 from simc_core.nested import CascadeLoop, NestedLoops
-from simc_core.performance import REST, StepMetrics, performance, step_metrics
+from simc_core.performance import StepMetrics, performance, step_metrics
 from simc_core.simulation.nested import time_scale
 from simc_core.simulation.network import network
 from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.several_delays import Steps
 from simc_core.stability import stability
 
+REST = 1e-9
 BEGIN = 8.0  # first horizon, in units of all times of the loops together
 MOST_DOUBLINGS = 12
 ROUNDING = 1e-7  # a stiff loop that comes no nearer to rest than this has reached its rounding errors

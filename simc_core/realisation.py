@@ -1,22 +1,34 @@
-"""A state space for a product of factors, as a chain of sections: never through polynomials of high order.
+"""A product of factors as a chain of sections, each driving the next: never through polynomials of high order.
 
-    x' = A x + B u,   y = C x + D u
+    section   (b2 s^2 + b1 s + b0)/(a s^2 + b s + c), of order two or one, in controllable form
 
-Each section of order two or one is in controllable form and drives the next; u and y are scalar.
+The engine of the time responses works on the sections; a state space is there for those who need one.
 """
 
 import numpy as np
 
 from simc_core.factors import Factored
 
+Row = tuple[float, float, float]
+
+
+def sections(F: Factored, unit: float = 1.0) -> list[tuple[Row, Row]]:
+    """Numerators and denominators whose product is F/gain without its dead time, F proper; time in `unit`.
+
+    Quadratics first, first-order factors multiplied in pairs, at most one of first order left, at the end: so no
+    numerator has a higher degree than its denominator, and the last section is strictly proper if F is.
+    """
+    num, den = _paired(F.num, unit), _paired(F.den, unit)
+    num += [(0.0, 0.0, 1.0)] * (len(den) - len(num))
+    return list(zip(num, den, strict=True))
+
 
 def chain(F: Factored, unit: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """A (n, n), B (n,), C (n,), D of F without its dead time, F proper; time is measured in `unit`."""
-    num, den = _sections(F.num, unit), _sections(F.den, unit)
-    num += [(0.0, 0.0, 1.0)] * (len(den) - len(num))
-    n = sum(2 if a else 1 for a, _, _ in den)
+    """A (n, n), B (n,), C (n,), D of x' = A x + B u, y = C x + D u for F without its dead time; time in `unit`."""
+    parts = sections(F, unit)
+    n = sum(2 if a else 1 for _, (a, _, _) in parts)
     A, B, C, D, used = np.zeros((n, n)), np.zeros(n), np.zeros(n), 1.0, 0
-    for (b2, b1, b0), (a, b, c) in zip(num, den, strict=True):
+    for (b2, b1, b0), (a, b, c) in parts:
         size = 2 if a else 1
         rows, last = slice(used, used + size), used + size - 1
         lead = a or b  # coefficient of the highest power
@@ -31,12 +43,8 @@ def chain(F: Factored, unit: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.nd
     return A, B, F.gain * C, F.gain * D
 
 
-def _sections(rows: np.ndarray, unit: float) -> list[tuple[float, float, float]]:
-    """Factors as quadratics, first-order ones multiplied in pairs, at most one of first order left, at the end.
-
-    With both lists in this order no numerator section has a higher degree than its denominator.
-    """
-    scaled = [(a / unit**2, b / unit, c) for a, b, c in rows]
+def _paired(rows: np.ndarray, unit: float) -> list[Row]:
+    scaled = [(a / unit**2, b / unit, c) for a, b, c in rows.tolist()]
     quadratics = [row for row in scaled if row[0]]
     linear = [row for row in scaled if not row[0]]
     while len(linear) > 1:

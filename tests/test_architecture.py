@@ -17,7 +17,7 @@ ORDER = [
     {"reduction", "dynamics", "zeros", "zeros_1998", "split", "story", "advice"},
     {"characteristic", "winding", "logresponse", "crossings"},
     {"stability", "poles", "margins", "laurent", "nested"},
-    {"half_rule", "simulation", "model_error"},  # the half rule judges its candidates by their Ms
+    {"half_rule", "simulation", "metrics", "model_error"},  # the half rule judges its candidates by their Ms
     {"performance", "robustness"},
     {"sweep", "tau_table", "cascade", "direct_synthesis", "fastest", "cascade_design", "nested_performance"},
     {"examples", "references", "cascade_examples"},

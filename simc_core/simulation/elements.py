@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
 from simc_core.errors import InvalidParameter
-from simc_core.simulation.system import DelaySystem
+from simc_core.simulation.network import Network
 
 P = 16  # nodes of an element
 TOLERANCE = 1e-14
@@ -54,7 +54,7 @@ class Element:
     states: np.ndarray
 
 
-def element(system: DelaySystem, h: float) -> Element:
+def element(system: Network, h: float) -> Element:
     """The element of length h."""
     n, m = system.B.shape
     known = np.zeros((P, n, n + m * P + system.E.shape[1]))
@@ -67,9 +67,11 @@ def element(system: DelaySystem, h: float) -> Element:
     return Element(solved.reshape(P, n, -1))
 
 
-def mesh(A: np.ndarray, length: float) -> np.ndarray:
-    """Lengths of elements that fill `length` after a jump at its start; powers of two of it, growing."""
-    modes = np.linalg.eigvals(A) if len(A) else np.zeros(0)
+def mesh(modes: np.ndarray, length: float) -> np.ndarray:
+    """Lengths of elements that fill `length` after a jump at its start which excites `modes` (complex, rad per time).
+
+    Powers of two of `length`, growing.
+    """
     size = np.abs(modes)
     modes, size = modes[size * length > 1e-3], size[size * length > 1e-3]
     if not len(modes):

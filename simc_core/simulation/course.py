@@ -1,0 +1,84 @@
+"""What the march leaves behind: responses of n tunings as pieces of polynomials, each tuning with pieces of its own."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from simc_core.simulation.elements import TO_CHEBYSHEV, P
+from simc_core.simulation.pieces import NEAR, Pieces
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """Elements of `lengths` one after the other, for some of the tunings.
+
+    which, begin: the tunings and when it begins.   values: (2, m, k, 2), y and z = u + d at the nodes, for r and d.
+    """
+
+    which: list[int]
+    begin: list[float]
+    lengths: tuple[float, ...]
+    values: np.ndarray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """Unit step responses of n tunings. Piece j belongs to tuning owner[j]; pieces in order of owner and time.
+
+    begin, length: (m,).   coefficients: (m, 2, 2, p), Chebyshev: y, u for steps of r, d.   first: (n + 1,), where the
+    pieces of each tuning begin.   at_rest: (n,), whether it came to rest.
+    """
+
+    owner: np.ndarray
+    begin: np.ndarray
+    length: np.ndarray
+    coefficients: np.ndarray
+    first: np.ndarray
+    at_rest: np.ndarray
+
+    def pieces(self, i: int) -> Pieces:
+        """One tuning: values [y, u] x [r, d]."""
+        own = slice(self.first[i], self.first[i + 1])
+        end = self.begin[own][-1] + self.length[own][-1]
+        return Pieces(np.append(self.begin[own], end), self.coefficients[own].transpose(0, 3, 1, 2))
+
+    def __call__(self, t: np.ndarray) -> np.ndarray:
+        """y, u at t (q,), shape (n, 2, 2, q); zero before 0, right-hand limits at jumps, the last value after the end.
+
+        Tunings whose pieces coincide are evaluated together.
+        """
+        found = np.zeros((len(self.first) - 1, 2, 2, len(t)))
+        begin, end = self.begin, self.begin + self.length
+        end[self.first[1:] - 1] = np.inf
+        low = np.searchsorted(t, begin * (1 - NEAR), side="left")
+        high = np.searchsorted(t, end * (1 - NEAR), side="left")
+        keys = np.stack([begin, self.length, end], axis=1)
+        _, kind = np.unique(keys, axis=0, return_inverse=True)
+        for same in np.split(np.argsort(kind, kind="stable"), np.flatnonzero(np.diff(np.sort(kind))) + 1):
+            j = same[0]
+            points = slice(low[j], high[j])
+            if low[j] < high[j]:
+                x = np.clip(2 * (t[points] - begin[j]) / self.length[j] - 1, -1.0, 1.0)
+                found[self.owner[same], :, :, points] = self.coefficients[same] @ chebyshev.chebvander(x, P - 1).T
+        return found
+
+
+def course(stretches: Sequence[Stretch], n: int, at_rest: Sequence[bool]) -> Course:
+    """Stretches sorted by tuning and time, their values as polynomials."""
+    owner, begin, length, values = [], [], [], []
+    for stretch in stretches:
+        starts = [0.0, *np.cumsum(stretch.lengths)[:-1].tolist()] if len(stretch.lengths) > 1 else (0.0,)
+        for e, (start, h) in enumerate(zip(starts, stretch.lengths, strict=True)):
+            owner += stretch.which
+            begin += [each + start for each in stretch.begin]
+            length += [h] * len(stretch.which)
+            values.append(stretch.values[:, e * P : (e + 1) * P].transpose(2, 0, 3, 1))
+    owner = np.array(owner)
+    order = np.argsort(owner, kind="stable") if n > 1 else slice(None)
+    coefficients = (np.concatenate(values) @ TO_CHEBYSHEV.T)[order]
+    coefficients[:, 1, 1, 0] -= 1.0  # u = z - d
+    owner = owner[order]
+    first = np.searchsorted(owner, np.arange(n + 1))
+    return Course(owner, np.array(begin)[order], np.array(length)[order], coefficients, first, np.array(at_rest))

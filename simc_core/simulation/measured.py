@@ -1,0 +1,137 @@
+"""What a stretch of time does to the plant and to what its controller measures: constant matrices, shared by all tunings.
+
+    w --> [ g ] --> y --> [ 1/(tau_F s + 1) ] --> p        w: input of the plant behind its dead time, y = g w
+
+The controller sees p (y itself for tau_F = 0), its slope p' if it has derivative action, and its integral. On an
+element of length h all signals are polynomials given at the P Radau nodes (elements.py), and integration from the
+start of the element is the matrix K = h a. Each section of the chain (realisation.py) turns v into x by
+
+    a x'' + b x' + c x = v     with W = x'':   (a + b K + c K^2) W = v - b x'_0 - c (x_0 + K x'_0)
+           b x' + c x = v      with W = x':    (b + c K) W = v - c x_0
+
+which is the collocation method of the whole chain. Columns of every map: (x_0, w at the nodes).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.errors import InvalidParameter
+from simc_core.plant import Plant
+from simc_core.realisation import Row, sections
+from simc_core.simulation.elements import COLLOCATION, NODES, P
+
+SIGNALS = 4  # y, p, p', integral of p
+EYE = np.eye(P)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Maps:
+    """Elements one after the other, together `length` long, as one linear map of (x_0 (n), w at all m nodes).
+
+    nodes: (m,), from the start.   lengths: of the elements.   signals: (4 m + n, n + m): y, p, p', integral of p since
+    the start, at the nodes, and the states at the end.
+    """
+
+    length: float
+    lengths: tuple[float, ...]
+    nodes: np.ndarray
+    signals: np.ndarray
+
+
+class Measured:
+    """The chain of plant and measurement filter, and its maps for any length.
+
+    Raises InvalidParameter: derivative action without filter on a plant whose response starts with a jump.
+    """
+
+    def __init__(self, plant: Plant, tau_F: float, derivative: bool):
+        self.gain, self.theta, self.tau_F = plant.k, plant.theta, tau_F
+        self.sections = sections(plant.factored)
+        self.derivative = derivative
+        self.n = sum(2 if den[0] else 1 for _, den in self.sections) + (tau_F > 0)
+        if derivative and not tau_F and not self._strictly_proper():
+            raise InvalidParameter(
+                f"tau_F must be > 0 for derivative action on a plant whose response starts with a jump, got {tau_F:g}"
+            )
+        factored = plant.factored
+        filter_ = [-1 / tau_F] if tau_F else []
+        self.modes = np.array([*factored.poles, *filter_])
+        self.relative_degree = factored.relative_degree
+
+    def _strictly_proper(self) -> bool:
+        if not self.sections:
+            return False
+        (b2, b1, _), (a, _, _) = self.sections[-1]
+        return (b2 if a else b1) == 0
+
+    def elements(self, lengths: np.ndarray) -> list[Maps]:
+        """The maps of single elements, one of each length."""
+        outputs, ends = self._maps(lengths)
+        flat = np.concatenate([outputs.reshape(len(lengths), SIGNALS * P, -1), ends], axis=1)
+        return [Maps(h, (h,), h * NODES, signals) for h, signals in zip(lengths.tolist(), flat, strict=True)]
+
+    def row(self, lengths: np.ndarray) -> Maps:
+        """Elements of these lengths as one map."""
+        unique, which = np.unique(lengths, return_inverse=True)
+        outputs, ends = self._maps(unique)
+        n, count = self.n, len(lengths)
+        m = count * P
+        x = np.zeros((n, n + m))
+        x[:, :n] = np.eye(n)
+        signals, integral = np.empty((SIGNALS, m, n + m)), np.zeros(n + m)
+        for e, kind in enumerate(which.tolist()):
+            own = slice(n + e * P, n + (e + 1) * P)
+            here = outputs[kind, :, :, :n] @ x
+            here[:, :, own] += outputs[kind, :, :, n:]
+            here[3] += integral
+            end = ends[kind, :, :n] @ x
+            end[:, own] += ends[kind, :, n:]
+            signals[:, e * P : (e + 1) * P] = here
+            x, integral = end, here[3, -1]
+        starts = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
+        nodes = (starts[:, None] + lengths[:, None] * NODES).ravel()
+        flat = np.concatenate([signals.reshape(SIGNALS * m, -1), x])
+        return Maps(float(np.sum(lengths)), tuple(lengths.tolist()), nodes, flat)
+
+    def _maps(self, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Signals (lengths, 4, P, n + P) and states at the end (lengths, n, n + P)."""
+        n, count = self.n, len(lengths)
+        K = lengths[:, None, None] * COLLOCATION
+        v, ends = np.zeros((count, P, n + P)), np.zeros((count, n, n + P))
+        v[:, :, n:] = self.gain * EYE
+        slope, used = np.zeros_like(v), 0
+        for num, den in self.sections:
+            v, slope, used = _section(num, den, K, v, ends, used)
+        outputs = np.empty((count, SIGNALS, P, n + P))
+        outputs[:, 0] = v
+        if self.tau_F:
+            v, slope, used = _section((0.0, 0.0, 1.0), (0.0, self.tau_F, 1.0), K, v, ends, used)
+        outputs[:, 1], outputs[:, 2], outputs[:, 3] = v, slope, K @ v
+        return outputs, ends
+
+
+def _section(num: Row, den: Row, K: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int):
+    """One section: its output and the slope of it, and the next free state; the states at the end go into `ends`.
+
+    The slope is right where the section is strictly proper.
+    """
+    (b2, b1, b0), (a, b, c) = num, den
+    right = v.copy()
+    right[:, :, used] -= c
+    if not a:
+        W = np.linalg.solve(b * EYE + c * K, right) if c else right / b
+        x = K @ W
+        x[:, :, used] += 1.0
+        ends[:, used] = x[:, -1]
+        return (b0 * x + b1 * W if b1 else b0 * x), b0 * W, used + 1
+    ramp = K.sum(axis=2)  # K applied to 1
+    right[:, :, used + 1] -= b + c * ramp
+    W = np.linalg.solve(a * EYE + b * K + c * (K @ K), right)
+    first = K @ W
+    first[:, :, used + 1] += 1.0
+    x = K @ first
+    x[:, :, used] += 1.0
+    ends[:, used], ends[:, used + 1] = x[:, -1], first[:, -1]
+    out = b0 * x + b1 * first + b2 * W if b1 or b2 else b0 * x
+    return out, b0 * first + b1 * W, used + 2
