@@ -1,25 +1,16 @@
 """`make bench`: the full recompute of a tuning against python-control with Pade(5) and Pade(10), as ratios.
 
 Both compute y and u for a set-point and a load step at 600 points, step metrics, five frequency responses at 400
-frequencies, all margins, and whether the loop is stable. One pinned core, interleaved, medians. The peer gets its best
-use: one MIMO state-space call for the responses, one for the frequencies. A table, and results/engine.json.
+frequencies, all margins, and whether the loop is stable. One pinned core, interleaved, medians. A table, and
+results/engine.json.
 """
 
-import json
-import os
-import time
-from collections.abc import Callable
-from pathlib import Path
-
-import control
 import numpy as np
 
+from benchmarks.recompute import FREQUENCIES, POINTS, keep, median_times, peer, pin
 from simc_core import Loop, Plant, Scenario, SeriesPid, frequency_response, margins, performance, simulate
-from simc_core.interop import closed_loop, to_tf
 from simc_core.simulation.simulate import times
 
-ROUNDS = 9
-POINTS, FREQUENCIES = 600, 400
 CASES = {
     "FOPDT, lag dominant": Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)),
     "FOPDT, delay dominant": Loop(Plant(1, 1, (0.1,)), SeriesPid(0.05, 0.1)),
@@ -44,36 +35,9 @@ def ours(loop: Loop, t_end: float, omega: np.ndarray) -> np.ndarray:
     return response.y
 
 
-def peer(loop: Loop, order: int, t: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    """The same by python-control."""
-    system = closed_loop(loop, order)
-    y = control.forced_response(system, t, np.array([np.ones_like(t), (t >= t[-1] / 2).astype(float)])).y
-    unit = control.forced_response(system, t, np.array([np.ones_like(t), np.zeros_like(t)])).y
-    for e, u in ((1 - unit[0], unit[1]), (-(y[0] - unit[0]), y[1] - unit[1])):
-        np.trapezoid(np.abs(e), t), np.trapezoid(e**2, t), np.trapezoid(t * np.abs(e), t), np.abs(np.diff(u)).sum()
-    L = to_tf(loop.plant, order) * to_tf(loop.controller)
-    control.frequency_response(system, omega)
-    control.frequency_response(L, omega)
-    control.stability_margins(L)
-    system.poles()
-    return y[0]
-
-
-def median_times(jobs: dict[str, Callable[[], object]]) -> dict[str, float]:
-    """Seconds, interleaved."""
-    taken: dict[str, list[float]] = {name: [] for name in jobs}
-    for _ in range(ROUNDS):
-        for name, job in jobs.items():
-            start = time.perf_counter()
-            job()
-            taken[name].append(time.perf_counter() - start)
-    return {name: float(np.median(values)) for name, values in taken.items()}
-
-
 def main() -> None:
     """Print the table and write the JSON."""
-    if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+    pin()
     rows = []
     print("| case | ours, ms | Pade(5) | Pade(10) | ratio to Pade(10) | error of y, Pade(10) |")
     print("|---|---|---|---|---|---|")
@@ -94,9 +58,7 @@ def main() -> None:
         rows.append({"case": name, "seconds": taken, "ratio": ratio, "pade10_error": error})
         three = " | ".join(f"{1e3 * taken[key]:.1f}" for key in ("ours", "Pade(5)", "Pade(10)"))
         print(f"| {name} | {three} | {ratio:.1f} | {error:.1e} |")
-    target = Path(__file__).parent / "results" / "engine.json"
-    target.parent.mkdir(exist_ok=True)
-    target.write_text(json.dumps(rows, indent=1))
+    keep("engine", rows)
 
 
 if __name__ == "__main__":

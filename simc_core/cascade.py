@@ -8,6 +8,7 @@ loop inside.
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from simc_core.margins import NOT_STABLE, Margins, crossings, margins, margins_o
 from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.stability import Stability, Verdict, count_unstable, stability
 
+RECENT = 64  # loops whose verdict is remembered
 RESONANCE = 1.05  # a peak of |T| above this bends the response enough to deserve nodes of its own
 
 
@@ -40,8 +42,14 @@ class NestedStability:
 
 @stability.register
 def _(loop: NestedLoops) -> NestedStability:
+    return verdict(loop)
+
+
+@lru_cache(maxsize=RECENT)  # margins, metrics and whoever shows the loop all ask for it
+def verdict(loop: NestedLoops) -> NestedStability:
+    """stability of these loops, remembered."""
     found = count_unstable(loop.terms)
-    inner = stability(loop.inside) if loop.inside else None
+    inner = verdict(loop.inside) if loop.inside else None
     return NestedStability(found.verdict, found.unstable_poles, found.neutral, inner)
 
 

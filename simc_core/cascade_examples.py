@@ -159,13 +159,15 @@ def judged_pairs() -> tuple[Judged, ...]:
 
 
 def judged(row: PairRow) -> Judged:
+    """The design of a row, and what its exact cascade does."""
+    design = designed(row)
+    loop = design.loop
+    return Judged(row, design, margins(loop.outer_loop), margins(loop.inner_loop), performance(loop))
+
+
+def designed(row: PairRow) -> CascadeDesign:
     """The design of a row, b as printed, else 1."""
     b = row.published.b if row.published else 1.0
     if row.method == "simc":
-        design = simc_cascade(*row.blocks, inner=row.inner, outer=row.outer, b=b)
-    else:
-        design = synthesis_cascade(
-            *row.blocks, row.Ms_inner, row.Ms_outer, row.inner, row.outer, N_outer=row.N_outer, b=b
-        )
-    loop = design.loop
-    return Judged(row, design, margins(loop.outer_loop), margins(loop.inner_loop), performance(loop))
+        return simc_cascade(*row.blocks, inner=row.inner, outer=row.outer, b=b)
+    return synthesis_cascade(*row.blocks, row.Ms_inner, row.Ms_outer, row.inner, row.outer, N_outer=row.N_outer, b=b)

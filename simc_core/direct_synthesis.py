@@ -69,7 +69,8 @@ def _order(process: Plant, inside: Loop | NestedLoops | None) -> tuple[float, in
         raise InvalidParameter(f"a block for direct synthesis may have at most {MOST_POLES} poles, got {process.order}")
     if inside is None:
         return process.theta, max(2 * process.order, 1)
-    return process.theta + _chain(inside)[1], 2 * process.order + 1
+    blocks = (inside.plant,) if isinstance(inside, Loop) else inside.blocks
+    return process.theta + sum(block.theta for block in blocks), 2 * process.order + 1
 
 
 def _coefficients(process: Plant, lambda_: float, inside: Loop | NestedLoops | None) -> np.ndarray:
@@ -90,19 +91,16 @@ def _inverse(process: Plant, inside: Loop | NestedLoops | None, tau: float) -> L
     """1/Gp without the dead time tau."""
     Gp = expansion(process.factored)
     if inside is not None:
-        Gp = Gp * _chain(inside)[0]
+        Gp = Gp * _chain(inside)
     return (Gp * exponential(tau)).inverse()
 
 
-def _chain(inside: Loop | NestedLoops) -> tuple[Laurent, float]:
-    """The closed loop `inside` as a series, and the dead time of it."""
+def _chain(inside: Loop | NestedLoops) -> Laurent:
+    """The closed loop `inside` as a series."""
     if isinstance(inside, Loop):
         inside = NestedLoops((inside.plant,), (inside.controller,))
     L = expansion(inside.own)
-    if inside.inside is None:
-        return L.closed(), inside.own.theta
-    T, theta = _chain(inside.inside)
-    return (L * T).closed(), inside.own.theta + theta
+    return (L if inside.inside is None else L * _chain(inside.inside)).closed()
 
 
 def _power(lambda_: float, p: int) -> np.ndarray:

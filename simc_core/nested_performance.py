@@ -8,9 +8,8 @@ from simc_core.errors import NotStable
 from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.performance import StepMetrics, performance, step_metrics
 from simc_core.simulation.nested import time_scale
-from simc_core.simulation.network import network
 from simc_core.simulation.pieces import Pieces
-from simc_core.simulation.several_delays import Steps
+from simc_core.simulation.several_delays import steps_of
 from simc_core.stability import stability
 
 REST = 1e-9
@@ -59,10 +58,9 @@ def _(loop: NestedLoops) -> NestedPerformance:
 
 
 def _to_rest(loop: NestedLoops) -> Pieces:
-    steps, t_end, before = Steps(network(loop)), BEGIN * time_scale(loop), np.inf
+    steps, t_end, before = steps_of(loop), BEGIN * time_scale(loop), np.inf
     for _ in range(MOST_DOUBLINGS):
-        steps.run(t_end)
-        pieces = steps.pieces()
+        pieces = steps.run(t_end)
         left, right = pieces.ends()
         late = pieces.edges[1:] >= 0.75 * pieces.edges[-1]
         change = np.max(np.abs(np.stack([left[late], right[late]]) - right[-1]), axis=(0, 1))

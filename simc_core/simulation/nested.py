@@ -3,19 +3,20 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import chebyshev
 
 from simc_core.nested import CascadeLoop, NestedLoops
-from simc_core.simulation.network import network
+from simc_core.simulation.elements import P
 from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.scenario import Scenario
-from simc_core.simulation.several_delays import Steps
+from simc_core.simulation.several_delays import steps_of
 from simc_core.simulation.simulate import grid, held, left_limits, round_up, simulate
 
 SETTLED = 0.01  # of the largest value; where a default horizon ends
 BEGIN = 2.0  # first horizon, in units of all times of the loops together
 MOST_DOUBLINGS = 7
 GROWN = 30.0  # an unstable response is shown until it is this large
-SAMPLES = 1500  # instants at which a horizon is judged
+SAMPLES = 24  # instants in a piece at which a horizon is judged
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,10 +74,8 @@ def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
     N = len(loop.blocks)
     heights = np.zeros(1 + N)
     heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d
-    steps = Steps(network(loop))
-    starts, t_end = _times(loop, steps, scenario, heights)
-    steps.run(t_end)
-    pieces = steps.pieces()
+    starts, t_end = _times(loop, scenario, heights)
+    pieces = steps_of(loop).run(t_end)
     if scenario.t is not None:
         t, left = scenario.t, None
     else:
@@ -84,7 +83,7 @@ def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
     used = np.flatnonzero(heights)
     outputs = np.zeros((len(t), 2 * N))
     for i in used:
-        outputs += heights[i] * pieces(t - starts[i])[:, :, i]
+        outputs += heights[i] * Pieces(pieces.edges, pieces.coefficients[..., i])(t - starts[i])
     inputs = np.array([held(t, start, height) for start, height in zip(starts, heights, strict=True)])
     if left is not None:
         outputs[left] = sum((heights[i] * left_limits(pieces, t[left] - starts[i])[:, :, i] for i in used), 0.0)
@@ -103,7 +102,7 @@ def time_scale(loop: NestedLoops) -> float:
     return total or 1.0
 
 
-def _times(loop: NestedLoops, steps: Steps, scenario: Scenario, heights: np.ndarray) -> tuple[np.ndarray, float]:
+def _times(loop: NestedLoops, scenario: Scenario, heights: np.ndarray) -> tuple[np.ndarray, float]:
     """When r, d_1 .. d_N begin, and the end; inputs of height 0 take no time of their own."""
     order = [0, len(heights) - 1, 1] if len(heights) > 2 else [0, 1]  # r, then d1, then d2
     used = [i for i in order if heights[i]] or [0]
@@ -114,7 +113,7 @@ def _times(loop: NestedLoops, steps: Steps, scenario: Scenario, heights: np.ndar
         end = scenario.t_end
         part = end / len(used)
     else:
-        part, end = horizon(loop, steps), 0.0
+        part, end = horizon(loop), 0.0
     starts = np.zeros(len(heights))
     for position, i in enumerate(used):
         starts[i] = position * part
@@ -124,26 +123,27 @@ def _times(loop: NestedLoops, steps: Steps, scenario: Scenario, heights: np.ndar
     return starts, end or float(np.max(starts[used])) + part
 
 
-def horizon(loop: NestedLoops, steps: Steps | None = None) -> float:
+def horizon(loop: NestedLoops) -> float:
     """A round time in which all unit steps settle to 1 %, or an unstable response has grown enough to be seen."""
-    steps = steps or Steps(network(loop))
-    t_end = BEGIN * time_scale(loop)
+    steps, t_end = steps_of(loop), BEGIN * time_scale(loop)
     for _ in range(MOST_DOUBLINGS):
-        steps.run(t_end)
-        t = np.linspace(0.0, min(t_end, steps.t), SAMPLES)
-        size = np.abs(_all_outputs(steps.pieces(), t))
-        values = _all_outputs(steps.pieces(), t)
-        if size.max() > GROWN * max(size[: SAMPLES // 4].max(), 1.0):
+        t, values = _sampled(steps.run(t_end), t_end, len(loop.blocks))
+        size = np.abs(values)
+        if size.max() > GROWN * max(size[t < t[-1] / 4].max(), 1.0):
             return round_up(float(t[np.argmax(size.max(axis=(1, 2)) > GROWN)]))
         away = np.abs(values - values[-1]) > SETTLED * size.max(axis=0)
         last = int(np.max(np.flatnonzero(away.any(axis=(1, 2))), initial=0))
-        if last < 0.7 * SAMPLES:
+        if t[last] < 0.7 * t[-1]:
             return round_up(float(t[last + 1]))
         t_end *= 2
     return round_up(t_end / 2)
 
 
-def _all_outputs(pieces: Pieces, t: np.ndarray) -> np.ndarray:
-    """ys at t, (n, N, inputs)."""
-    values = pieces(t)
-    return values[:, : values.shape[1] // 2]
+def _sampled(pieces: Pieces, t_end: float, N: int) -> tuple[np.ndarray, np.ndarray]:
+    """Instants up to about t_end, SAMPLES in each piece, and all y there, (n, N, inputs)."""
+    count = max(int(np.searchsorted(pieces.edges, t_end)), 1)
+    left, right = pieces.edges[:count], pieces.edges[1 : count + 1]
+    places = np.linspace(-1.0, 1.0, SAMPLES)
+    t = left[:, None] + (right - left)[:, None] * (places + 1) / 2
+    values = np.tensordot(pieces.coefficients[:count, :, :N], chebyshev.chebvander(places, P - 1), (1, 1))
+    return t.ravel(), np.moveaxis(values, -1, 1).reshape(-1, *values.shape[1:-1])

@@ -12,7 +12,7 @@ import pytest
 from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, simulate
 from simc_core.simulation.network import network
 from simc_core.simulation.several_delays import Steps
-from tests.core.test_cascade import PAIRS
+from tests.core.pairs import PAIRS
 
 NODES = 32  # of the contour: about 1e-19 of the largest term of the series
 MORE_NODES = 52  # for pair 9, whose terms grow to 1e18
@@ -102,8 +102,7 @@ def test_ten_pairs_against_forty_digits(pair):
     response = simulate(loop, Scenario(setpoint=1.0, disturbance=0.0, disturbance2=0.0, t=np.array([t])))
     assert response.y2[0] != 0
     steps = Steps(network(loop.nested))
-    steps.run(20 * theta)
-    found = steps.pieces()(np.array([t]))[0][[1, 0, 2]][:, [0, 2, 1]]
+    found = steps.run(20 * theta)(np.array([t]))[0][[1, 0, 2]][:, [0, 2, 1]]
     with mpmath.workdps(50):
         wanted = series(pair, t)
     assert np.max(np.abs(found - wanted) / np.maximum(1, np.abs(wanted))) < 1e-9
@@ -138,7 +137,7 @@ def test_a_tiny_inner_dead_time(ratio):
     assert tiny.count < 10 * usual.count
     assert len(tiny.maps) < 10 * len(usual.maps)
     half = steps_of(Plant(1, 1 / ratio, (2, 3)))
-    y, y_half, y_none = (each.pieces()(t)[:, 1, 0] for each in (tiny, half, none))
+    y, y_half, y_none = (each.run(80.0)(t)[:, 1, 0] for each in (tiny, half, none))
     assert np.max(np.abs(y - y_none)) == pytest.approx(2 * np.max(np.abs(y_half - y_none)), rel=0.1)
 
 

@@ -5,7 +5,7 @@ import pytest
 
 from simc_core import CascadeLoop, InvalidParameter, ParallelPid, Scenario, simc_cascade, simulate
 from simc_core.simulation.windup import PROTECTIONS, limited
-from tests.core.test_cascade import PAIRS
+from tests.core.pairs import PAIRS
 
 LOOP = simc_cascade(*PAIRS[1], inner="PID").loop
 

@@ -1,0 +1,58 @@
+"""What the benchmarks share: the peer, interleaved medians on one core, where results go."""
+
+import json
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import control
+import numpy as np
+
+from simc_core import Loop
+from simc_core.interop import closed_loop, to_tf
+
+ROUNDS = 9
+POINTS, FREQUENCIES = 600, 400
+
+
+def peer(loop: Loop, order: int, t: np.ndarray, omega: np.ndarray) -> np.ndarray:
+    """A full recompute by python-control with Pade(order); y of the scenario comes back.
+
+    Its best use: one MIMO state-space call for the responses, one for the frequencies.
+    """
+    system = closed_loop(loop, order)
+    y = control.forced_response(system, t, np.array([np.ones_like(t), (t >= t[-1] / 2).astype(float)])).y
+    unit = control.forced_response(system, t, np.array([np.ones_like(t), np.zeros_like(t)])).y
+    for e, u in ((1 - unit[0], unit[1]), (-(y[0] - unit[0]), y[1] - unit[1])):
+        np.trapezoid(np.abs(e), t), np.trapezoid(e**2, t), np.trapezoid(t * np.abs(e), t), np.abs(np.diff(u)).sum()
+    L = to_tf(loop.plant, order) * to_tf(loop.controller)
+    control.frequency_response(system, omega)
+    control.frequency_response(L, omega)
+    control.stability_margins(L)
+    system.poles()
+    return y[0]
+
+
+def median_times(jobs: dict[str, Callable[[], object]]) -> dict[str, float]:
+    """Seconds, interleaved."""
+    taken: dict[str, list[float]] = {name: [] for name in jobs}
+    for _ in range(ROUNDS):
+        for name, job in jobs.items():
+            start = time.perf_counter()
+            job()
+            taken[name].append(time.perf_counter() - start)
+    return {name: float(np.median(values)) for name, values in taken.items()}
+
+
+def pin() -> None:
+    """This process on one core, where the system can do that."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+
+
+def keep(name: str, rows: list[dict]) -> None:
+    """Rows as results/NAME.json."""
+    target = Path(__file__).parent / "results" / f"{name}.json"
+    target.parent.mkdir(exist_ok=True)
+    target.write_text(json.dumps(rows, indent=1))
