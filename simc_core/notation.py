@@ -44,16 +44,24 @@ def latex(item: Plant | Model | Controller, digits: int = DIGITS) -> str:
     """`item` as a LaTeX transfer function of s, a fraction where there is a denominator."""
     if isinstance(item, SeriesPid | IdealPid | ParallelPid | IController):
         return _latex_controller(item, digits)
-    plant = item if isinstance(item, Plant) else item.plant
+    top, bottom = latex_factors(item if isinstance(item, Plant) else item.plant, digits)
+    return rf"\frac{{{' '.join(top)}}}{{{' '.join(bottom)}}}" if bottom else " ".join(top)
+
+
+def latex_factors(plant: Plant, digits: int = DIGITS) -> tuple[list[str], list[str]]:
+    """Numerator, with gain and dead time, and denominator, each as LaTeX factors to be written one after the other."""
     show = _Latex(digits)
-    top, bottom = show.product(_numerator(plant, show)), show.product(_denominator(plant, show))
-    delay = show.delay(plant.theta)
+    top, bottom = _numerator(plant, show), _denominator(plant, show)
+    if plant.theta:
+        top.append(show.delay(plant.theta))
     # the unity numerator of 1/(s+1) needs its 1, that of e^{-s}/(s+1) does not
-    gain = "" if plant.k == 1 and (top or delay) else "-" if plant.k == -1 and (top or delay) else show.number(plant.k)
-    top = " ".join(part for part in (gain, top, delay) if part).replace("- ", "-", 1 if gain == "-" else 0)
-    if bottom.startswith("(") and bottom.endswith(")") and bottom.count("(") == 1:
-        bottom = bottom[1:-1]
-    return rf"\frac{{{top}}}{{{bottom}}}" if bottom else top
+    if plant.k == -1 and top:
+        top[0] = "-" + top[0]
+    elif plant.k != 1 or not top:
+        top.insert(0, show.number(plant.k))
+    if len(bottom) == 1 and bottom[0].startswith("(") and bottom[0].endswith(")"):
+        bottom[0] = bottom[0][1:-1]
+    return top, bottom
 
 
 def plain(item: Plant | Model) -> str:
@@ -86,9 +94,6 @@ class _Latex:
 
     def delay(self, theta: float) -> str:
         return rf"e^{{-{times_s(self.number(theta))}}}" if theta else ""
-
-    def product(self, parts: list[str]) -> str:
-        return " ".join(parts)
 
 
 class _Plain:

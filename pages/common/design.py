@@ -6,13 +6,16 @@ Pure Python, no streamlit. links.py writes a Design as an address, project.py as
 from dataclasses import dataclass, field
 
 from simc_core import Plant, checks
+from simc_core.cascade_design import HIGHEST_MS, LOWEST_MS
 from simc_core.errors import InvalidParameter
 
 FORMS = ("series", "ideal", "parallel")
 KINDS = ("PI", "PID")
 METHODS = ("simc", "synthesis")
+FILTERS = ("N", "zero")
 RULES = ("2003", "1998")
 MOST_PINS = 4
+LOWEST_N, HIGHEST_N = 0.1, 1000.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +55,9 @@ class Cascade:
     """Both blocks and how their controllers are designed; None for what the method chooses itself.
 
     primary: Ga, the block of the outer loop.   secondary: Gb, the block of the inner loop.
-    tau_c_inner, tau_c_outer: also serve as lambda of the direct synthesis.
+    tau_c_inner, tau_c_outer: also serve as lambda of the direct synthesis; they go before the Ms of the same loop.
+    N_inner, N_outer: lambda/tau_F of a PID by direct synthesis.
+    filter_outer: "zero" where tau_F of the outer one is to cancel the zero of the inner loop instead.
     """
 
     primary: Plant = field(default_factory=lambda: Plant(2.0, 2.0, (5.0,)))
@@ -65,9 +70,13 @@ class Cascade:
     Ms_inner: float | None = None
     Ms_outer: float | None = None
     b: float = 1.0
+    N_inner: float = 20.0
+    N_outer: float = 20.0
+    filter_outer: str = "N"
 
     def __post_init__(self):
         put = object.__setattr__
+        one_of("filter_outer", self.filter_outer, FILTERS)
         one_of("method", self.method, METHODS)
         one_of("inner", self.inner, KINDS)
         one_of("outer", self.outer, KINDS)
@@ -76,7 +85,9 @@ class Cascade:
                 put(self, name, checks.positive_time(name, getattr(self, name)))
         for name in ("Ms_inner", "Ms_outer"):
             if getattr(self, name) is not None:
-                put(self, name, checks.real(name, getattr(self, name), 1.05, 10.0))
+                put(self, name, checks.real(name, getattr(self, name), LOWEST_MS, HIGHEST_MS))
+        for name in ("N_inner", "N_outer"):
+            put(self, name, checks.real(name, getattr(self, name), LOWEST_N, HIGHEST_N))
         put(self, "b", checks.real("b", self.b, 0.0, 2.0))
 
 

@@ -5,12 +5,14 @@ import streamlit as st
 from pages.common import project, state
 from pages.common.design import Design
 from simc_core.notation import latex
+from simc_core.plant import Plant
 
 TITLES = {
     "home": "Home",
     "plant": "Plant",
     "half_rule": "Half rule",
     "tuning": "Tuning",
+    "cascade": "Cascade",
     "accuracy": "Accuracy",
 }
 # Less air round the page than Streamlit leaves: an instrument shows its dials. The line stays one line where it fits.
@@ -23,7 +25,7 @@ STYLE = """<style>
 [data-testid="stMain"] :is(p, .katex-display):has(> .katex) {overflow-x: auto; overflow-y: hidden}
 .st-key-line [data-testid="stElementContainer"] {max-width: 100%}
 </style>"""
-CHAIN = ("plant", "half_rule", "tuning")
+CHAIN = ("plant", "half_rule", "tuning", "cascade")
 
 
 def go(place: str) -> None:
@@ -40,9 +42,11 @@ def show(place: str) -> Design:
     st.html(STYLE)
     design = state.begin()
     with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
-        plant = design.plant
-        st.markdown(f"$G(s) = {latex(plant)}$", width="content")
-        st.caption(f"{plant.kind}, $\\theta$ = {plant.theta:g}", width="content")
+        if place == "cascade":
+            _block("G_a", design.cascade.primary)
+            _block("G_b", design.cascade.secondary)
+        else:
+            _block("G", design.plant)
         if place in CHAIN:
             chain(place)
     _notices()
@@ -52,7 +56,7 @@ def show(place: str) -> Design:
 
 
 def chain(place: str, key: str = "chain") -> None:
-    """Plant > Half rule > Tuning, to click, with the present place marked."""
+    """Plant > Half rule > Tuning > Cascade, to click, with the present place marked."""
     with st.container(key=key, horizontal=True, vertical_alignment="center", gap="xsmall", width="content"):
         for i, name in enumerate(CHAIN):
             if i:
@@ -64,6 +68,11 @@ def chain(place: str, key: str = "chain") -> None:
                 st.markdown(TITLES[name], width="content")
             else:
                 st.page_link(page, label=TITLES[name], query_params=state.parameters())
+
+
+def _block(name: str, plant: Plant) -> None:
+    st.markdown(f"${name}(s) = {latex(plant)}$", width="content")
+    st.caption(f"{plant.kind}, $\\theta$ = {plant.theta:g}", width="content")
 
 
 def _notices() -> None:

@@ -29,8 +29,11 @@ CASCADE_FIELDS = {
     "Ms_inner": "Ms_inner",
     "Ms_outer": "Ms_outer",
     "b_outer": "b",
+    "N_inner": "N_inner",
+    "N_outer": "N_outer",
+    "filter_outer": "filter_outer",
 }
-TEXTS = ("rules", "form", "method", "inner", "outer")
+TEXTS = ("rules", "form", "method", "inner", "outer", "filter_outer")
 PLANTS = ("plant", "Ga", "Gb")
 ALWAYS = ("plant", "order")
 

@@ -1,5 +1,7 @@
 """The figures of the tuning page: four panels side by side, on a narrow screen one at a time; Bode beside them."""
 
+from dataclasses import dataclass
+
 import streamlit as st
 
 from pages.common.study import Study, common_grid, frequency_responses, time_responses
@@ -17,15 +19,17 @@ from simc_core.margins import crossings
 from simc_core.notation import number
 
 HEIGHT, TALL = 250, 480  # px
-PANELS = ("y", "u", "Nyquist", "|S| |T|")
-KEYS = ("y", "u", "nyquist", "sensitivity")
-ALT = (
-    "Output y after a set-point step and a load step",
-    "Controller output u after a set-point step and a load step",
-    "Nyquist curve of L with Ms and Mt circles",
-    "Magnitude of S and T over frequency",
-)
 NARROW = "@media (max-width: 640px)"
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """A figure of the field. key: for styles and the file it is saved as; label: on the switch of a narrow screen."""
+
+    key: str
+    label: str
+    alt: str
+    figure: Figure
 
 
 def panels(studies: list[tuple[str, Study]]) -> None:
@@ -34,20 +38,17 @@ def panels(studies: list[tuple[str, Study]]) -> None:
     present = records[0]
     times = list(zip(names, time_responses(records), strict=True))
     frequencies = list(zip(names, frequency_responses(records), strict=True))
-    figures = (
-        output_figure(times, HEIGHT, present.stable),
-        input_figure(times, HEIGHT, present.stable),
-        nyquist_figure(frequencies, present.margins, HEIGHT),
-        sensitivity_figure(frequencies, present.margins, HEIGHT),
+    y, u = output_figure(times, HEIGHT, present.stable), input_figure(times, HEIGHT, present.stable)
+    nyquist = nyquist_figure(frequencies, present.margins, HEIGHT)
+    sensitivity = sensitivity_figure(frequencies, present.margins, HEIGHT)
+    field(
+        (
+            Panel("y", "y", "Output y after a set-point step and a load step", y),
+            Panel("u", "u", "Controller output u after a set-point step and a load step", u),
+            Panel("nyquist", "Nyquist", "Nyquist curve of L with Ms and Mt circles", nyquist),
+            Panel("sensitivity", "|S| |T|", "Magnitude of S and T over frequency", sensitivity),
+        )
     )
-    chosen = st.segmented_control(
-        "Panel", PANELS, default=PANELS[0], required=True, key="panel", label_visibility="collapsed", width="stretch"
-    )
-    st.html(_style(PANELS.index(chosen)))
-    with st.container(key="panels"):
-        for key, title, figure in zip(KEYS, ALT, figures, strict=True):
-            with st.container(key=f"panel_{key}"):
-                show(figure, key, title)
     start = times[0][1].t[times[0][1].d != 0][0]
     st.caption(
         f"Unit step of the set point at t = 0, unit step of the load at the plant input at t = {number(start)}; "
@@ -64,14 +65,27 @@ def open_loop(studies: list[tuple[str, Study]]) -> None:
     show(figure, "open_loop", "Bode diagram of the open loop L")
 
 
+def field(found: tuple[Panel, ...]) -> None:
+    """Panels two by two; on a narrow screen the one that is chosen."""
+    labels = [panel.label for panel in found]
+    chosen = st.segmented_control(
+        "Panel", labels, default=labels[0], required=True, key="panel", label_visibility="collapsed", width="stretch"
+    )
+    st.html(_style([panel.key for panel in found], labels.index(chosen)))
+    with st.container(key="panels"):
+        for panel in found:
+            with st.container(key=f"panel_{panel.key}"):
+                show(panel.figure, panel.key, panel.alt)
+
+
 def show(figure: Figure, key: str, alt: str) -> None:
     """A figure with hover, zoom and SVG export."""
     st.plotly_chart(figure, key=f"figure_{key}", config=config(key), alt=alt)
 
 
-def _style(chosen: int) -> str:
+def _style(keys: list[str], chosen: int) -> str:
     """Two by two on a wide screen; on a narrow one the panel chosen alone, and the choice in sight."""
-    hidden = ", ".join(f".st-key-panel_{key}" for i, key in enumerate(KEYS) if i != chosen)
+    hidden = ", ".join(f".st-key-panel_{key}" for i, key in enumerate(keys) if i != chosen)
     return f"""<style>
 .st-key-panels {{display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem 0.75rem}}
 .st-key-panels > * {{min-width: 0}}

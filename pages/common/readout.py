@@ -36,6 +36,8 @@ STYLE = f"""<style>
 
 MEANINGS = {
     "Ms": "Ms = max |1/(1+L)|: 1/Ms is the smallest distance of L from −1; below 1.7 is usual, 2 the limit [SK03]",
+    "Msa": "Msa = max |1/(1+La)|, La with the inner loop closed: 1/Msa is the smallest distance of La from −1",
+    "Msb": "Msb = max |1/(1+Lb)| of the inner loop: 1/Msb is the smallest distance of Lb from −1",
     "Mt": "Mt = max |L/(1+L)|: how much a set point is amplified at worst",
     "Gain": "factor on the plant gain at which the loop becomes unstable",
     "GM": "factors on the plant gain, downwards and upwards, at which the loop becomes unstable",
@@ -71,11 +73,11 @@ def strip_html(study: Study) -> str:
             "<b>Loop not stable</b><span>no margins and no metrics: they would mean nothing</span></div></div>"
         )
     band, words = band_of(study.margins.Ms)
-    Ms = _reading("Ms, peak of |S|", study.margins.Ms)
+    Ms = reading("Ms, peak of |S|", study.margins.Ms)
     first = (
-        f'<div class="first" title="{_hover(Ms)}"><small>{Ms.label}</small><b>{Ms.text}</b><span>{words}</span></div>'
+        f'<div class="first" title="{hover(Ms)}"><small>{Ms.label}</small><b>{Ms.text}</b><span>{words}</span></div>'
     )
-    cells = "".join(_cell(cell) for cell in readings(study))
+    cells = "".join(cell_html(cell) for cell in readings(study))
     return f'<div class="strip {band}" role="status" aria-label="Figures that decide">{first}{cells}</div>'
 
 
@@ -84,16 +86,16 @@ def readings(study: Study) -> list[Reading]:
     judged, metrics = study.margins, study.performance
     lower = judged.GM_lower > 0
     return [
-        _pair("GM lower · upper", judged.GM_lower, judged.GM) if lower else _reading("Gain margin GM", judged.GM),
-        _reading("Phase margin PM", judged.PM_deg, "°"),
-        _reading("Delay margin", judged.delay_margin),
-        _reading("IAE set point", metrics.setpoint.IAE),
-        _reading("IAE load", metrics.disturbance.IAE),
-        _reading("Mt, peak of |T|", judged.Mt),
+        _pair("GM lower · upper", judged.GM_lower, judged.GM) if lower else reading("Gain margin GM", judged.GM),
+        reading("Phase margin PM", judged.PM_deg, "°"),
+        reading("Delay margin", judged.delay_margin),
+        reading("IAE set point", metrics.setpoint.IAE),
+        reading("IAE load", metrics.disturbance.IAE),
+        reading("Mt, peak of |T|", judged.Mt),
         _pair("TV set point · load", metrics.setpoint.TV, metrics.disturbance.TV),
         _percent("Overshoot", metrics.setpoint.overshoot),
-        _reading("Settling set point", metrics.setpoint.settling_time),
-        _reading("Settling load", metrics.disturbance.settling_time),
+        reading("Settling set point", metrics.setpoint.settling_time),
+        reading("Settling load", metrics.disturbance.settling_time),
     ]
 
 
@@ -106,18 +108,18 @@ def band_of(Ms: float) -> tuple[str, str]:
     return "alarm", "alarm: too close to −1 (> 2.0)"
 
 
-def _hover(cell: Reading) -> str:
+def hover(cell: Reading) -> str:
     """The exact value, and what it is."""
     meaning = MEANINGS[re.match(r"\w+", cell.label)[0]]
     return escape(f"{cell.exact}\n{meaning}")
 
 
-def _cell(cell: Reading) -> str:
+def cell_html(cell: Reading) -> str:
     label = escape(cell.label)
-    return f'<div title="{_hover(cell)}"><small>{label}</small><b>{cell.text}</b> <i>{cell.more}</i></div>'
+    return f'<div title="{hover(cell)}"><small>{label}</small><b>{cell.text}</b> <i>{cell.more}</i></div>'
 
 
-def _reading(label: str, value: float, more: str = "") -> Reading:
+def reading(label: str, value: float, more: str = "") -> Reading:
     if math.isinf(value):
         return Reading(label, "∞", "infinite: no limit", "no limit")
     return Reading(label, number(value, DIGITS), f"{value:.10g}", more)

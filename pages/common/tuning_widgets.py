@@ -69,7 +69,7 @@ def _slider(model: Model, tau_c: float) -> None:
         r"and gentle on the input [SK03 sect. 3.3]. $\tau_c = \theta$ is tight.",
         **state.bound(
             "tau_c",
-            show=lambda value: _nearest(ratios, (value or tau_c) / scale),
+            show=lambda value: nearest(ratios, (value or tau_c) / scale),
             read=lambda ratio: ratio * scale,
             key="tau_c_slider",
         ),
@@ -160,7 +160,7 @@ def _presets(model: Model, tau_c: float) -> None:
             )
 
 
-def _nearest(ratios: list[float], wanted: float) -> float:
+def nearest(ratios: list[float], wanted: float) -> float:
     """The entry nearest to `wanted`, on the logarithmic scale of the slider."""
     at = min(max(bisect_left(ratios, wanted), 1), len(ratios) - 1)
     low, high = ratios[at - 1], ratios[at]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core.factors import Factored
+from simc_core.nested import NestedLoops
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,3 +25,19 @@ def bode_curve(F: Factored, omega: np.ndarray) -> BodeCurve:
         for a, b, c in rows:
             phase += sign * np.angle(c - a * omega**2 + 1j * b * omega)
     return BodeCurve(omega, np.abs(F(s)), np.rad2deg(phase))
+
+
+def nested_bode_curve(loop: NestedLoops, omega: np.ndarray) -> BodeCurve:
+    """L of the outermost loop, the loops inside closed: L = own T, T = L'/(1 + L') of the loop inside.
+
+    The phase of own is known factor by factor; that of 1 + L' is followed down from high frequencies, where L' is small
+    and the angle near 0.
+    """
+    own = bode_curve(loop.own, omega)
+    if loop.inside is None:
+        return own
+    inside = nested_bode_curve(loop.inside, omega)
+    difference = 1 + inside.magnitude * np.exp(1j * np.deg2rad(inside.phase_deg))
+    turned = np.rad2deg(np.unwrap(np.angle(difference[::-1]))[::-1])
+    magnitude = own.magnitude * inside.magnitude / np.abs(difference)
+    return BodeCurve(omega, magnitude, own.phase_deg + inside.phase_deg - turned)

@@ -83,6 +83,28 @@ def sensitivity_figure(
     )
 
 
+def nested_sensitivity_figure(
+    outer: FrequencyResponse, inner: FrequencyResponse, judged: tuple[Margins, Margins], height: int | None = None
+) -> Figure:
+    """|S| of the outer and of the inner loop, each with its peak; judged: their margins, in this order."""
+    traces: list[Trace] = []
+    ends = float(outer.omega[0]), float(outer.omega[-1])
+    for (name, color, dash), record, margins in zip(palette.LOOPS, (outer, inner), judged, strict=True):
+        traces.append(_magnitude(record.omega, record.S, f"|S{name}|", color, dash, 2.2))
+        if margins.stable:
+            traces.append(_peak(margins.omega_Ms, margins.Ms, f"Ms{name}", color, ends))
+    top = 1.6 * float(np.nanmax(np.abs(np.concatenate([outer.S, inner.S]))))
+    stable = all(margins.stable for margins in judged)
+    return palette.figure(
+        traces,
+        palette.log_axis(palette.FREQUENCY, hoverformat=".4g", range=_logs(*ends)),
+        palette.log_axis("|Sa|, |Sb|  [–]", range=_logs(0.02, min(max(2.5, top), 100.0))),
+        height,
+        shapes=[_level(1)],
+        annotations=[] if stable else [palette.note("Cascade not sound: peaks mean nothing")],
+    )
+
+
 def model_error_figure(
     omega: np.ndarray, error: np.ndarray, bound: np.ndarray | None, height: int | None = None
 ) -> Figure:

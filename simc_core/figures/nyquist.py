@@ -25,30 +25,49 @@ def nyquist_figure(
     curves: Sequence[tuple[str, FrequencyResponse]], margins: Margins, height: int | None = None
 ) -> Figure:
     """L(j omega), 1:1, -1 marked. curves: present design first, then the pinned ones. margins: of the present one."""
-    circles = [_reference(Ms, angle) for Ms, angle in REFERENCES]
-    traces = [trace for pair in circles for trace in pair]
-    if margins.stable:
-        traces += [*_ms_circle(margins), *_mt_circle(margins.Mt)]
-    traces += reversed([_curve(name, record, position) for position, (name, record) in enumerate(curves)])
-    traces.append(
-        palette.marker(-1, 0, "−1", palette.NEUTRAL, "critical point", "bottom left", hoverinfo="skip")
-        | {
-            "marker": {
-                "color": palette.ALARM,
-                "size": 10,
-                "symbol": "cross-thin",
-                "line": {"width": 2.5, "color": palette.ALARM},
-            }
-        }
-    )
+    traces = [*_ms_circle(margins, ""), *_mt_circle(margins.Mt)] if margins.stable else []
+    shades = [palette.shade(palette.Y, position) for position in range(len(curves))]
+    traces += reversed([_curve(*curve, shade) for curve, shade in zip(curves, shades, strict=True)])
+    return _plane(traces, [margins], height)
+
+
+def nested_nyquist_figure(
+    outer: FrequencyResponse, inner: FrequencyResponse, judged: tuple[Margins, Margins], height: int | None = None
+) -> Figure:
+    """La (inner loop closed) and Lb, each with the circle of its own Ms in its own colour and dash.
+
+    judged: margins of the outer and of the inner loop.
+    """
+    traces = []
+    for (name, color, dash), record, margins in zip(palette.LOOPS, (outer, inner), judged, strict=True):
+        traces.append(_curve(f"L{name}", record, (color, dash, 2.2)) | {"showlegend": True})
+        if margins.stable:
+            traces += [
+                circle | {"line": {"color": color, "dash": dash, "width": 1.2}, "showlegend": False}
+                for circle in _ms_circle(margins, name)
+            ]
+    return _plane(traces, judged, height)
+
+
+def _plane(traces: list[Trace], judged: Sequence[Margins], height: int | None) -> Figure:
+    """The plane of L, 1:1, with the circles of well-known Ms and the critical point."""
+    circles = [trace for Ms, angle in REFERENCES for trace in _reference(Ms, angle)]
+    stable = all(margins.stable for margins in judged)
     return palette.figure(
-        traces,
-        palette.axis("Re L  [–]", range=_view(margins), zeroline=True, constrain="range"),
+        [*circles, *traces, _critical_point()],
+        palette.axis("Re L  [–]", range=_view(judged), zeroline=True, constrain="range"),
         palette.axis("Im L  [–]", range=list(VIEW_Y), zeroline=True, scaleanchor="x", scaleratio=1),
         height,
         hovermode="closest",
-        annotations=[] if margins.stable else [palette.note("Loop not stable: no margins")],
+        annotations=[] if stable else [palette.note("Loop not stable: no margins")],
     )
+
+
+def _critical_point() -> Trace:
+    cross = {"width": 2.5, "color": palette.ALARM}
+    return palette.marker(-1, 0, "−1", palette.NEUTRAL, "critical point", "bottom left", hoverinfo="skip") | {
+        "marker": {"color": palette.ALARM, "size": 10, "symbol": "cross-thin", "line": cross}
+    }
 
 
 def circle(centre: float, radius: float, points: int = 181) -> tuple[np.ndarray, np.ndarray]:
@@ -64,12 +83,12 @@ def mt_circle(Mt: float) -> tuple[np.ndarray, np.ndarray]:
     return circle(-Mt * Mt / (Mt * Mt - 1), Mt / abs(Mt * Mt - 1), 721)
 
 
-def _curve(name: str, record: FrequencyResponse, position: int) -> Trace:
+def _curve(name: str, record: FrequencyResponse, style: tuple[str, str, float]) -> Trace:
     return palette.line(
         record.L.real,
         record.L.imag,
         name,
-        *palette.shade(palette.Y, position),
+        *style,
         customdata=record.omega,
         showlegend=False,  # the time responses name the designs
         hovertemplate="ω = %{customdata:.4g}<br>L = %{x:.4g} %{y:+.4g} j",
@@ -97,11 +116,11 @@ def _reference(Ms: float, angle: float) -> tuple[Trace, Trace]:
     return palette.line(x, y, name, palette.NEUTRAL, "dot", 1.0, showlegend=False, hoverinfo="skip"), label
 
 
-def _ms_circle(margins: Margins) -> list[Trace]:
+def _ms_circle(margins: Margins, of: str) -> list[Trace]:
     if not math.isfinite(margins.Ms):
         return []
     x, y = circle(-1.0, 1 / margins.Ms)
-    text = f"Ms = {margins.Ms:.4g}"
+    text = f"Ms{of} = {margins.Ms:.4g}"
     return [palette.line(x, y, text, palette.S, "solid", 1.6, hovertemplate=text, meta="Ms circle")]
 
 
@@ -113,9 +132,8 @@ def _mt_circle(Mt: float) -> list[Trace]:
     return [palette.line(x, y, text, palette.Y, "longdash", 1.4, hovertemplate=text, meta="Mt circle")]
 
 
-def _view(margins: Margins) -> list[float]:
+def _view(judged: Sequence[Margins]) -> list[float]:
     """Room for the lower gain limit of a conditionally stable loop, which crosses to the left of -1."""
-    left = VIEW_X[0]
-    if margins.stable and margins.GM_lower > 0:
-        left = max(min(left, -1.15 / margins.GM_lower), FARTHEST_LEFT)
-    return [left, VIEW_X[1]]
+    limits = [margins.GM_lower for margins in judged if margins.stable and margins.GM_lower > 0]
+    left = min([VIEW_X[0], *(-1.15 / limit for limit in limits)])
+    return [max(left, FARTHEST_LEFT), VIEW_X[1]]

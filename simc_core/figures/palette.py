@@ -19,6 +19,7 @@ U = "#D55E00"  # input
 R = "#8A9096"  # set point
 D = "#CC79A7"  # disturbance
 REDUCED = "#009E73"  # reduced model
+INNER = "#009E73"  # inner loop of a cascade, where no reduced model is drawn
 S = "#C77C00"  # sensitivity, its peak Ms and the circle of it
 NEUTRAL = "#8A9096"  # axes through zero, reference lines, the point -1
 GRID = "rgba(138,144,150,0.22)"
@@ -29,7 +30,11 @@ PIN_SHADES = {
     Y: ("#4C9FD0", "#6FB3DB", "#8CC3E3", "#A5D0EA"),
     U: ("#E68A4A", "#ECA06C", "#F0B38A", "#F4C4A4"),
     S: ("#D99A3A", "#E0AC5C", "#E7BE80", "#EDCEA0"),
+    INNER: ("#45B898", "#6AC6AD", "#8AD2BE", "#A6DDCD"),
 }
+
+# The loops of a cascade: index, colour, dash.
+LOOPS = (("a", Y, "solid"), ("b", INNER, "dash"))
 
 FULL_AND_REDUCED = ((Y, "solid", 2.2), (REDUCED, "dash", 2.0))
 

@@ -1,4 +1,4 @@
-"""Time responses: y and u of a loop, step response of plants.
+"""Time responses: y and u of a loop or a cascade, y2 and r2 of a cascade, step response of plants.
 
 Curves come as pairs (name, record); the first is the present design, the others are pinned ones.
 A record holds both limits where a signal jumps, and so does the picture: a vertical stroke.
@@ -11,9 +11,10 @@ import numpy as np
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.plant_step import PlantStep
-from simc_core.simulation import TimeResponse
+from simc_core.simulation import NestedResponse, TimeResponse
 
-Curves = Sequence[tuple[str, TimeResponse]]
+NestedCurves = Sequence[tuple[str, NestedResponse]]
+Curves = Sequence[tuple[str, TimeResponse]] | NestedCurves
 FAR = 10.0  # a response that leaves this many steps is growing: the view stays where the eye can read
 VIEW = (-4.0, 6.0)
 
@@ -31,6 +32,21 @@ def output_figure(curves: Curves, height: int | None = None, stable: bool = True
 def input_figure(curves: Curves, height: int | None = None, stable: bool = True) -> Figure:
     """u(t), the controller output, with its jumps. stable=False: the figure says that the loop is not."""
     return _figure(_signals(curves, "u", palette.U), "u  [unit of u]", height, stable)
+
+
+def inner_output_figure(curves: NestedCurves, height: int | None = None, stable: bool = True) -> Figure:
+    """y2(t) of cascades, and the set point r2 that the outer controller of the present one gives it."""
+    present = curves[0][1]
+    traces = [
+        palette.line(present.t, present.r2, "r2", palette.R, "dash", 1.4, hovertemplate="%{y:.4g}"),
+        *_signals(curves, "y2", palette.INNER),
+    ]
+    return _figure(traces, "y2  [unit of y2]", height, stable)
+
+
+def inner_setpoint_figure(curves: NestedCurves, height: int | None = None, stable: bool = True) -> Figure:
+    """r2(t), what the outer controller puts out: it shows whether that winds up."""
+    return _figure(_signals(curves, "r2", palette.INNER), "r2  [unit of y2]", height, stable)
 
 
 def plant_step_figure(step: PlantStep, model: PlantStep | None = None, height: int | None = None) -> Figure:
