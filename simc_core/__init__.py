@@ -26,3 +26,4 @@ from simc_core.reduction import Candidate, Reduction, Share, Step
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.stability import Stability, count_unstable, stability
+from simc_core.sweep import Sweep, sweep

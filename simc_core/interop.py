@@ -24,7 +24,8 @@ from simc_core.plant import Plant
 
 HIGHEST_PADE = 20  # beyond it the coefficients of the approximation itself are rounding
 RATIONAL = (control.TransferFunction, control.StateSpace, signal.lti)
-NEGLIGIBLE = 1e-11  # of the fastest pole: an integrator that rounding moved; its inverse: a zero at infinity
+NEGLIGIBLE = 1e-11  # of the fastest pole: an integrator that rounding moved
+INFINITE = 1e9  # times the fastest pole: a zero that rounding brought in from infinity
 ALGEBRAIC = 1e-12  # 1 + L(inf) below it is zero
 
 System = control.TransferFunction | control.StateSpace | signal.lti
@@ -176,7 +177,7 @@ def _polynomials(system: System) -> tuple[np.ndarray, np.ndarray]:
         num, den = form.num[0][0], np.array(form.den[0][0])
     num, den = (np.trim_zeros(np.real(np.asarray(each)), "f") for each in (num, den))
     fastest = np.max(np.abs(np.roots(den)), initial=0.0)
-    while fastest and len(num) > 1 and abs(num[0]) * fastest <= NEGLIGIBLE * abs(num[1]):
+    while fastest and len(num) > 1 and abs(num[0]) * fastest * INFINITE <= abs(num[1]):
         num = num[1:]
     if len(den) > 1 and 0 < abs(den[-1]) <= NEGLIGIBLE * fastest * abs(den[-2]):
         den[-1] = 0.0

@@ -3,7 +3,8 @@
     IAE = int |e|    ISE = int e^2    ITAE = int t |e|    TV = sum |change of u|, jumps included    e = r - y
 
 IAE is the total variation of int e, ITAE that of int t e: both turn where e has a zero, as u turns where u' has one.
-Zeros are bracketed on SAMPLES of each piece and polished there; a piece with |c_0| > sum |c_k| has none.
+Zeros are bracketed on SAMPLES of each piece, and for e where y turns as well, so that no narrow lobe is lost; then they
+are polished. A piece with |c_0| > sum |c_k| has none.
 """
 
 from dataclasses import dataclass
@@ -80,22 +81,21 @@ class Measures:
 def measures(steps: Steps) -> Measures:
     """Integrals, variation and extremes of all responses."""
     e, half, m = steps.e, steps.length / 2, len(steps.owner)
-    stack = np.concatenate([e, steps.y @ SLOPE, steps.u @ SLOPE])
-    total = np.abs(stack).sum(axis=1).reshape(3, m)
-    scale = np.maximum.reduceat(total, steps.first, axis=1)[:, steps.owner]
-    row, x = _zeros(stack, (total > NOISE * scale).ravel())
-    kind, piece = np.divmod(row, m)
-    values = np.cos(DEGREES * np.arccos(x)[:, None])
-    of_e, of_y, of_u = (kind == 0), (kind == 1), (kind == 2)
-    IAE, ITAE = _absolute_integrals(steps, e, half, piece[of_e], x[of_e])
-    at_u = (steps.u[piece[of_u]] * values[of_u]).sum(axis=1)
+    stack = np.concatenate([steps.y @ SLOPE, steps.u @ SLOPE])
+    row, x = _zeros(stack, _alive(stack, steps))
+    turns, piece, in_y = _values_at(x), row % m, row < m
+    turning = (piece[in_y], x[in_y], turns[in_y])
+    row_e, x_e = _zeros(e, _alive(e, steps), turning)
+    IAE, ITAE = _absolute_integrals(steps, e, half, row_e, x_e)
+    of_u = ~in_y
+    at_u = (steps.u[piece[of_u]] * turns[of_u]).sum(axis=1)
     left, right = steps.u @ SIGNS, steps.u.sum(axis=1)
     before = np.concatenate([[0.0], right[:-1]])
     before[steps.first] = 0.0
     TV = _variation(piece[of_u], at_u, left, right) + np.abs(left - before)
-    piece = piece[of_y]
-    y_times = steps.begin[piece] + half[piece] * (x[of_y] + 1)
-    peak, peak_time, opposite = _extremes(steps, piece, (steps.y[piece] * values[of_y]).sum(axis=1), y_times)
+    piece = piece[in_y]
+    y_times = steps.begin[piece] + half[piece] * (x[in_y] + 1)
+    peak, peak_time, opposite = _extremes(steps, piece, (steps.y[piece] * turns[in_y]).sum(axis=1), y_times)
     with np.errstate(divide="ignore", invalid="ignore"):
         overshoot = np.where(steps.target, peak - 1, np.where(peak, opposite / np.abs(peak), 0.0))
     return Measures(
@@ -128,18 +128,62 @@ def rise_and_settling(steps: Steps, peak: np.ndarray) -> tuple[np.ndarray, np.nd
     return np.where(target, first[1] - first[0], np.nan), settling
 
 
-def _zeros(series: np.ndarray, wanted: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Sign changes within the series that are `wanted`: row and place x in (-1, 1), in order."""
+def _alive(series: np.ndarray, steps: Steps) -> np.ndarray:
+    """Which rows, one for each piece or several such lists one after the other, are more than rounding."""
+    total = np.abs(series).sum(axis=1).reshape(-1, len(steps.owner))
+    return (total > NOISE * np.maximum.reduceat(total, steps.first, axis=1)[:, steps.owner]).ravel()
+
+
+def _values_at(x: np.ndarray) -> np.ndarray:
+    """T_k(x), (len(x), P)."""
+    return np.cos(DEGREES * np.arccos(x)[:, None])
+
+
+def _zeros(series: np.ndarray, wanted: np.ndarray, turning=None) -> tuple[np.ndarray, np.ndarray]:
+    """Sign changes within the series that are `wanted`: row and place x in (-1, 1), in order.
+
+    turning: rows, places in order and T_k there, where the series may touch zero between two samples.
+    """
     size = np.abs(series)
     able = np.flatnonzero(wanted & (2 * size[:, 0] <= size.sum(axis=1)))
     values = series[able] @ VANDERMONDE
     row, at = np.nonzero((values[:, 1:] < 0) != (values[:, :-1] < 0))
-    own, low, high = series[able[row]], SAMPLES[at], SAMPLES[at + 1]
-    first, last = values[row, at], values[row, at + 1]
+    row, low, high = able[row], SAMPLES[at], SAMPLES[at + 1]
+    first, last = values[np.searchsorted(able, row), at], values[np.searchsorted(able, row), at + 1]
+    if turning is not None:
+        row, low, high, first, last = _with_lobes(series, able, values, turning, (row, low, high, first, last))
+    return row, _polished(series[row], low, high, first, last)
+
+
+def _with_lobes(series, able, values, turning, brackets):
+    """Brackets on both sides of a turning point whose sign is not that of the samples around it."""
+    row, x, basis = turning
+    position = np.minimum(np.searchsorted(able, row), max(len(able) - 1, 0))
+    known = able[position] == row if len(able) else np.zeros(len(row), dtype=bool)
+    row, x, position, basis = row[known], x[known], position[known], basis[known]
+    middle = (series[row] * basis).sum(axis=1)
+    at = np.clip(np.searchsorted(SAMPLES, x), 1, len(SAMPLES) - 1)
+    before, after = values[position, at - 1], values[position, at]
+    lobe = ((before < 0) == (after < 0)) & ((middle < 0) != (before < 0))
+    row, x, middle, before, after, at = (each[lobe] for each in (row, x, middle, before, after, at))
+    more = (
+        np.concatenate([row, row]),
+        np.concatenate([SAMPLES[at - 1], x]),
+        np.concatenate([x, SAMPLES[at]]),
+        np.concatenate([before, middle]),
+        np.concatenate([middle, after]),
+    )
+    joined = [np.concatenate(pair) for pair in zip(brackets, more, strict=True)]
+    order = np.lexsort((joined[1], joined[0]))
+    return [each[order] for each in joined]
+
+
+def _polished(own: np.ndarray, low: np.ndarray, high: np.ndarray, first: np.ndarray, last: np.ndarray) -> np.ndarray:
+    """Zeros of the series `own` between low and high, where their values are first and last: Newton inside brackets."""
     slope, below = own @ SLOPE, first < 0
     x = low - first * (high - low) / (last - first)
     for _ in range(NEWTON if len(x) else 0):
-        powers = np.cos(DEGREES * np.arccos(x)[:, None])
+        powers = _values_at(x)
         f = (own * powers).sum(axis=1)
         same = (f < 0) == below
         low, high = np.where(same, x, low), np.where(same, high, x)
@@ -149,7 +193,7 @@ def _zeros(series: np.ndarray, wanted: np.ndarray) -> tuple[np.ndarray, np.ndarr
         moved, x = np.abs(following - x), following
         if np.all(moved <= SETTLED):
             break
-    return able[row], x
+    return x
 
 
 def _variation(piece: np.ndarray, turning: np.ndarray, left: np.ndarray, right: np.ndarray) -> np.ndarray:

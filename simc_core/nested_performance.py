@@ -5,8 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core.errors import NotStable
+from simc_core.metrics import Steps
 from simc_core.nested import CascadeLoop, NestedLoops
-from simc_core.performance import StepMetrics, performance, step_metrics
+from simc_core.performance import StepMetrics, metrics_of, performance
 from simc_core.simulation.nested import time_scale
 from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.several_delays import steps_of
@@ -53,8 +54,17 @@ def _(loop: NestedLoops) -> NestedPerformance:
     offset = np.abs(right[-1, 0] - np.array([1.0] + [0.0] * N))
     if np.any(offset > OFFSET * np.max(np.abs(right[:, 0]), axis=0)):
         raise NotStable(f"IAE needs loops that settle without offset, got {float(np.max(offset)):.4g}")
-    found = [step_metrics(Pieces(pieces.edges, y_and_u[:, :, :, [0, i or 1]]), min(i, 1)) for i in range(N + 1)]
-    return NestedPerformance(found[0], tuple(found[1:]))
+    setpoint, *disturbances = metrics_of(_steps(pieces.edges, y_and_u))
+    return NestedPerformance(setpoint, tuple(disturbances))
+
+
+def _steps(edges: np.ndarray, y_and_u: np.ndarray) -> Steps:
+    """Responses to r, d_1 .. d_N one after the other; y_and_u (m, P, 2, 1 + N)."""
+    m, _, _, inputs = y_and_u.shape
+    y, u = (y_and_u[:, :, i].transpose(2, 0, 1).reshape(inputs * m, -1) for i in (0, 1))
+    owner = np.repeat(np.arange(inputs), m)
+    begin, length = np.tile(edges[:-1], inputs), np.tile(np.diff(edges), inputs)
+    return Steps(owner, begin, length, y, u, m * np.arange(inputs), np.array([1.0] + [0.0] * (inputs - 1)))
 
 
 def _to_rest(loop: NestedLoops) -> Pieces:

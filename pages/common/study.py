@@ -1,11 +1,11 @@
 """From what the user has decided to everything the pages show of it. Pure: no streamlit."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from pages.common.design import Tuning
-from simc_core.controllers import Controller, IController
+from simc_core.controllers import Controller
 from simc_core.grid import omega_grid
 from simc_core.half_rule import half_rule
 from simc_core.loop import FrequencyResponse, Loop, frequency_response
@@ -16,6 +16,7 @@ from simc_core.plant import Plant
 from simc_core.reduction import Reduction
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, TimeResponse, simulate
+from simc_core.sweep import dressed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,7 +53,7 @@ def study(plant: Plant, tuning: Tuning) -> Study:
     """Reduce, tune, close the loop, judge it. Raises SimcError, in words, where one of these is impossible."""
     reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules)
     tau_c = tau_c_in_use(reduction.model, tuning)
-    loop = Loop(plant, dressed(simc(reduction.model, tau_c), tuning))
+    loop = Loop(plant, dressed(simc(reduction.model, tau_c), tuning.b, tuning.filter))
     judged = margins(loop)
     return Study(tuning, reduction, tau_c, loop, judged, performance(loop) if judged.stable else None)
 
@@ -65,13 +66,6 @@ def tau_c_in_use(model: Model, tuning: Tuning) -> float:
     if tuning.tau_c is not None and not isinstance(model, UnstableDelay):
         return tuning.tau_c
     return next(iter(tau_c_presets(model).values()), 1.0)
-
-
-def dressed(controller: Controller, tuning: Tuning) -> Controller:
-    """`controller` with the set-point weight and the derivative filter of `tuning`; pure I action takes neither."""
-    if isinstance(controller, IController):
-        return controller
-    return replace(controller, b=tuning.b, tau_F=tuning.filter * controller.tau_D)
 
 
 def time_responses(studies: list[Study]) -> list[TimeResponse]:

@@ -18,7 +18,7 @@ from numpy.polynomial import chebyshev, legendre
 from simc_core.errors import InvalidParameter
 from simc_core.simulation.network import Network
 
-P = 16  # nodes of an element
+P = 20  # nodes of an element
 TOLERANCE = 1e-14
 MOST_ELEMENTS = 4000
 

@@ -4,6 +4,7 @@ What a plant does on an element does not depend on the tuning (measured.py), and
 those of another depends on their levels alone. Without dead time the unit is the plant's fastest time constant.
 """
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -12,47 +13,67 @@ from numpy.polynomial import chebyshev
 
 from simc_core.plant import Plant
 from simc_core.simulation.elements import NODES, TO_CHEBYSHEV, P, mesh
-from simc_core.simulation.measured import SIGNALS, Maps, Measured
+from simc_core.simulation.measured import SIGNALS, Measured
 
 AHEAD = 6  # levels made at once
+EYE = np.eye(P)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Level:
-    """Maps of one element. B: (P, P), its own z at t - theta.   loops: B times the parts w -> p, p', int p, (3, P, P)."""
+    """One element. length, nodes: from its start.   B: (P, P), its own z at t - theta.
 
-    maps: Maps
+    signals: (4 P + n, n + P), states at the start and w -> y, p, p', int p at the nodes, and states at the end.
+    back: (3, P P), w -> p, p', int p.   free: what of `signals` comes from the states.   driven: (P + 1 + n, P), w -> y
+    at the nodes, int p at the end, states at the end.
+    """
+
+    length: float
+    nodes: np.ndarray
     B: np.ndarray
-    loops: np.ndarray
+    signals: np.ndarray
+    back: np.ndarray
+    free: np.ndarray
+    driven: np.ndarray
 
 
 class Levels:
-    """Of one plant behind one filter. mesh: one interval theta, fine at its start; None without dead time."""
+    """Of one plant behind one filter. mesh: levels of the elements of one interval, short at its start.
 
-    def __init__(self, chain: Measured):
+    finer: how often these are halved.
+    """
+
+    def __init__(self, chain: Measured, finer: int):
         self.chain, self.theta = chain, chain.theta
         size = np.abs(chain.modes)
-        self.unit = chain.theta or float(1 / np.max(size, initial=0.0) if size.any() else 1.0)
-        self.mesh = chain.row(mesh(chain.modes, chain.theta)) if chain.theta else None
-        self.shape = tuple(h / self.theta for h in self.mesh.lengths) if self.mesh else ()
+        self.unit = chain.theta or float(1 / np.max(size) if size.any() else 1.0)
         self._made: dict[int, Level] = {}
+        parts = np.repeat(mesh(chain.modes, chain.theta) / chain.theta, 2**finer) / 2**finer if chain.theta else ()
+        self.shape = tuple(float(part) for part in parts)
+        self.mesh = tuple(round(math.log2(part)) for part in self.shape)
+        self._make(sorted({*self.mesh, *range(1, 1 + AHEAD)}))
 
     def __getitem__(self, level: int) -> Level:
         if level not in self._made:
-            wanted = [each for each in range(level, level + AHEAD) if each not in self._made]
-            made = self.chain.elements(self.unit * 2.0 ** np.array(wanted))
-            self._made |= {each: self._level(each, maps) for each, maps in zip(wanted, made, strict=True)}
+            self._make([each for each in range(level, level + AHEAD) if each not in self._made])
         return self._made[level]
 
-    def _level(self, level: int, maps: Maps) -> Level:
-        B = _within(level) if self.theta else np.eye(P)
-        parts = maps.signals[P : SIGNALS * P, self.chain.n :].reshape(SIGNALS - 1, P, P)
-        return Level(maps, B, B @ parts)
+    def _make(self, wanted: list[int]) -> None:
+        lengths = self.unit * 2.0 ** np.array(wanted)
+        outputs, ends = self.chain.elements(lengths)
+        n, count = self.chain.n, len(wanted)
+        signals = np.concatenate([outputs.reshape(count, SIGNALS * P, n + P), ends], axis=1)
+        back = outputs[:, 1:, :, n:].reshape(count, SIGNALS - 1, P * P)
+        free = signals[:, :, :n].copy()
+        driven = np.concatenate([outputs[:, 0, :, n:], outputs[:, 3, -1:, n:], ends[:, :, n:]], axis=1)
+        for i, (each, h) in enumerate(zip(wanted, lengths.tolist(), strict=True)):
+            B = _within(each) if self.theta else EYE
+            self._made[each] = Level(h, h * NODES, B, signals[i], back[i], free[i], driven[i])
 
     def history(self, before: int, level: int) -> np.ndarray:
         """From z at the nodes of the element before to z(t - theta) at those of the next, as far as it lies there.
 
-        Level 0 is the mesh, on either side.
+        Level 0 is the whole mesh, on either side.
         """
         if before:
             return _from_element(before, level, () if level else self.shape)
@@ -60,9 +81,9 @@ class Levels:
 
 
 @lru_cache(maxsize=64)
-def levels(plant: Plant, tau_F: float, derivative: bool) -> Levels:
+def levels(plant: Plant, tau_F: float, derivative: bool, finer: int = 0) -> Levels:
     """Raises InvalidParameter as Measured does."""
-    return Levels(Measured(plant, tau_F, derivative))
+    return Levels(Measured(plant, tau_F, derivative), finer)
 
 
 @lru_cache(maxsize=128)

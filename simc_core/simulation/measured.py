@@ -1,4 +1,4 @@
-"""What a stretch of time does to the plant and to what its controller measures: constant matrices, shared by all tunings.
+"""What a stretch of time does to the plant and to what its controller measures: the same for all tunings.
 
     w --> [ g ] --> y --> [ 1/(tau_F s + 1) ] --> p        w: input of the plant behind its dead time, y = g w
 
@@ -12,31 +12,15 @@ start of the element is the matrix K = h a. Each section of the chain (realisati
 which is the collocation method of the whole chain. Columns of every map: (x_0, w at the nodes).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from simc_core.errors import InvalidParameter
 from simc_core.plant import Plant
 from simc_core.realisation import Row, sections
-from simc_core.simulation.elements import COLLOCATION, NODES, P
+from simc_core.simulation.elements import COLLOCATION, P
 
 SIGNALS = 4  # y, p, p', integral of p
 EYE = np.eye(P)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Maps:
-    """Elements one after the other, together `length` long, as one linear map of (x_0 (n), w at all m nodes).
-
-    nodes: (m,), from the start.   lengths: of the elements.   signals: (4 m + n, n + m): y, p, p', integral of p since
-    the start, at the nodes, and the states at the end.
-    """
-
-    length: float
-    lengths: tuple[float, ...]
-    nodes: np.ndarray
-    signals: np.ndarray
 
 
 class Measured:
@@ -65,37 +49,8 @@ class Measured:
         (b2, b1, _), (a, _, _) = self.sections[-1]
         return (b2 if a else b1) == 0
 
-    def elements(self, lengths: np.ndarray) -> list[Maps]:
-        """The maps of single elements, one of each length."""
-        outputs, ends = self._maps(lengths)
-        flat = np.concatenate([outputs.reshape(len(lengths), SIGNALS * P, -1), ends], axis=1)
-        return [Maps(h, (h,), h * NODES, signals) for h, signals in zip(lengths.tolist(), flat, strict=True)]
-
-    def row(self, lengths: np.ndarray) -> Maps:
-        """Elements of these lengths as one map."""
-        unique, which = np.unique(lengths, return_inverse=True)
-        outputs, ends = self._maps(unique)
-        n, count = self.n, len(lengths)
-        m = count * P
-        x = np.zeros((n, n + m))
-        x[:, :n] = np.eye(n)
-        signals, integral = np.empty((SIGNALS, m, n + m)), np.zeros(n + m)
-        for e, kind in enumerate(which.tolist()):
-            own = slice(n + e * P, n + (e + 1) * P)
-            here = outputs[kind, :, :, :n] @ x
-            here[:, :, own] += outputs[kind, :, :, n:]
-            here[3] += integral
-            end = ends[kind, :, :n] @ x
-            end[:, own] += ends[kind, :, n:]
-            signals[:, e * P : (e + 1) * P] = here
-            x, integral = end, here[3, -1]
-        starts = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
-        nodes = (starts[:, None] + lengths[:, None] * NODES).ravel()
-        flat = np.concatenate([signals.reshape(SIGNALS * m, -1), x])
-        return Maps(float(np.sum(lengths)), tuple(lengths.tolist()), nodes, flat)
-
-    def _maps(self, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Signals (lengths, 4, P, n + P) and states at the end (lengths, n, n + P)."""
+    def elements(self, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Of single elements: signals (lengths, 4, P, n + P) and states at the end (lengths, n, n + P)."""
         n, count = self.n, len(lengths)
         K = lengths[:, None, None] * COLLOCATION
         v, ends = np.zeros((count, P, n + P)), np.zeros((count, n, n + P))

@@ -48,7 +48,7 @@ class Scenario:
             put(self, "t_end", checks.positive_time("t_end", self.t_end))
         put(self, "points", checks.whole("points", self.points, 2, MOST_POINTS))
         if self.t is not None:
-            put(self, "t", _instants(self.t))
+            put(self, "t", instants(self.t))
         if not self.u_min < self.u_max:
             raise InvalidParameter(f"u_min must be < u_max = {self.u_max:g}, got {self.u_min:g}")
         if self.tracking_time is not None:
@@ -69,7 +69,8 @@ class TimeResponse:
     u: np.ndarray
 
 
-def _instants(given) -> np.ndarray:
+def instants(given) -> np.ndarray:
+    """`given` as increasing instants >= 0, shape (n,). Raises InvalidParameter."""
     t = np.asarray(given, dtype=float)
     if t.ndim != 1 or not 1 <= t.size <= MOST_POINTS:
         raise InvalidParameter(f"t must be a list of 1 to {MOST_POINTS} instants, got shape {t.shape}")

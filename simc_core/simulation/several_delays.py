@@ -52,6 +52,7 @@ class Steps:
         self.edges = np.zeros(ROOM_AT_FIRST + 1)
         self.coefficients = np.zeros((ROOM_AT_FIRST, self.signals, P, self.inputs))  # of (z, o), Chebyshev
         self.count, self.rows = 0, np.arange(self.m)[:, None]
+        self.summands = np.abs(np.concatenate([system.C, system.Co]))  # a large kick leaves few digits of u
         self.breakpoints = Breakpoints(system)
         self.upcoming = self.breakpoints.next()
         self.h = unit = _unit(system)
@@ -112,9 +113,9 @@ class Steps:
         values = (made.coefficients @ known).reshape(self.signals, P, self.inputs)
         last = largest(np.abs(values[:, -2:]), 1)
         tail = float(largest(last / self.allowed, None))
-        if tail > 1:  # if at all, because the signals have grown, or for what is rounding
-            noise = ROUNDING * (made.weight @ np.abs(known))
-            _, allowed = self._sizes(values)
+        if tail > ROOM:  # if at all, for what is rounding, or because the signals have grown
+            noise = ROUNDING * (made.weight @ np.abs(known) + self.summands @ np.abs(self.x))
+            allowed = self._sizes(values)[1] if tail > 1 else self.allowed
             tail = float(largest(np.maximum(last - noise, 0.0) / allowed, None))
         return values, made.end @ known, tail
 

@@ -119,7 +119,7 @@ def grid(pieces: Pieces, heights, starts, t_end: float, points: int) -> tuple[np
     """Instants with jumps twice, and the indices of those that mean the left limit."""
     t = np.linspace(0.0, t_end, points)
     jumps = np.concatenate([starts, *(jump_times(pieces, i) + starts[i] for i in range(len(heights)) if heights[i])])
-    jumps = np.unique(jumps[jumps < t_end])[:MOST_JUMPS]
+    jumps = np.unique(jumps[jumps <= t_end])[:MOST_JUMPS]
     both = np.concatenate([t[~np.isin(t, jumps)], jumps, jumps])
     order = np.argsort(both, kind="stable")
     grid = both[order]

@@ -41,7 +41,8 @@ def limited(
 ) -> NestedResponse:
     """Steps of r at 0 and of d at the input of the innermost block, from rest; us[0] is the limited signal.
 
-    Raises InvalidParameter: limits that do not enclose 0, unknown protection, a dead time too short for MOST_STEPS.
+    Raises InvalidParameter: limits that do not enclose 0, unknown protection, a dead time too short for MOST_STEPS, an
+    innermost block without dead time that starts with a jump.
     """
     if not u_min <= 0 <= u_max or u_min == u_max:
         raise InvalidParameter(f"u_min <= 0 <= u_max must hold, the state of rest, got {u_min:g} and {u_max:g}")
@@ -50,15 +51,22 @@ def limited(
     loops = loop.nested if isinstance(loop, CascadeLoop) else loop
     t_end = horizon(loops) if t_end is None else t_end
     system = network(loops)
+    if system.Fo[len(loops.blocks), 1]:
+        raise InvalidParameter("theta of the innermost block must be > 0 where it passes a jump of u on at once, got 0")
     dt = _step(system, t_end)
     t = dt * np.arange(round(t_end / dt) + 1)
-    v = np.zeros((len(t), system.E.shape[1]))
-    v[:, 0], v[:, 1] = setpoint, held(t, disturbance2_time, disturbance2)
-    outputs, u = _run(system, _tracking(loops, len(system.A), protection), (u_min, u_max), v, dt)
+    arrives = disturbance2_time + loops.blocks[0].theta
+    load = disturbance2 * np.clip(
+        (t + dt - arrives) / dt, 0.0, 1.0
+    )  # as a mean over each step: it may begin within one
     N = len(loops.blocks)
+    tracking = _tracking(loops, len(system.A), protection)
+    outputs, u = _run(system, tracking, (u_min, u_max), setpoint, load, loops.blocks[0].theta > 0, dt)
     us = outputs[:, N:].T.copy()
     us[0] = u
-    return NestedResponse(t, v[:, 0], v[:, 1:].T, outputs[:, :N].T, us)
+    ds = np.zeros((N, len(t)))
+    ds[0] = held(t, disturbance2_time, disturbance2)
+    return NestedResponse(t, np.full(len(t), setpoint), ds, outputs[:, :N].T, us)
 
 
 def _step(system: Network, t_end: float) -> float:
@@ -96,30 +104,41 @@ def _tracking_time(controller: Controller) -> float:
     return abs(form.Kp / form.Ki) if form.Kp and form.Ki else 1.0
 
 
-def _run(system: Network, tracking: np.ndarray, limits: tuple[float, float], v: np.ndarray, dt: float):
-    """Outputs (n, 2 N) at all instants, and the limited u."""
+def _run(
+    system: Network,
+    tracking: np.ndarray,
+    limits: tuple[float, float],
+    setpoint: float,
+    load: np.ndarray,
+    late: bool,
+    dt: float,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Outputs (n, 2 N) at all instants, and the limited u. e enters where d_1 does; late: behind a dead time."""
     n, m = system.B.shape
     N = len(system.Co) // 2
     Phi, first, second = _ramps(system, tracking, dt)
-    x, z = np.zeros(n), np.zeros((len(v) + 1, m))
-    outputs, limited_u, excess = np.empty((len(v), len(system.Co))), np.empty(len(v)), 0.0
-    entry = np.zeros(m)
-    if m:
-        entry[0] = 1.0  # e goes where u_1 goes; a first block without dead time has no z of its own
+    x, z = np.zeros(n), np.zeros((len(load) + 1, m))
+    outputs, limited_u = np.empty((len(load), len(system.Co))), np.empty(len(load))
+    v, arriving = np.zeros(system.E.shape[1]), np.zeros(m)
+    v[0] = setpoint
     reach = system.theta / dt
-    for k in range(len(v)):
-        w = _delayed(z, k, reach)
-        o = system.Co @ x + system.Do @ w + system.Fo @ v[k]
+    for k, d in enumerate(load.tolist()):
+        if late:
+            arriving[0] = d  # w_1 is the first of those behind a dead time
+        else:
+            v[1] = d
+        w = _delayed(z, k, reach) + arriving
+        o = system.Co @ x + system.Do @ w + system.Fo @ v
         outputs[k] = o
         limited_u[k] = min(max(o[N], limits[0]), limits[1])
         excess = limited_u[k] - o[N]
-        z[k] = system.C @ x + system.D @ w + system.F @ v[k] + entry * excess
-        if k + 1 == len(v):
+        z[k] = system.C @ x + system.D @ w + system.F @ v + system.F[:, 1] * excess
+        if k + 1 == len(load):
             break
-        w_next = _delayed(z, k + 1, reach, from_left=True)
-        start = first @ np.concatenate([w, v[k], [excess]]) + Phi @ x
-        known = np.concatenate([w_next, v[k], [excess]])  # v is held over the step
-        o_next = system.Co @ (start + second @ known) + system.Do @ w_next + system.Fo @ v[k]
+        w_next = _delayed(z, k + 1, reach, from_left=True) + arriving
+        start = first @ np.concatenate([w, v, [excess]]) + Phi @ x
+        known = np.concatenate([w_next, v, [excess]])  # v is held over the step
+        o_next = system.Co @ (start + second @ known) + system.Do @ w_next + system.Fo @ v
         known[-1] = min(max(o_next[N], limits[0]), limits[1]) - o_next[N]
         x = start + second @ known
     return outputs, limited_u
@@ -143,7 +162,7 @@ def _delayed(z: np.ndarray, k: int, reach: np.ndarray, from_left: bool = False) 
 def _ramps(system: Network, tracking: np.ndarray, dt: float):
     """Phi, and what (w, v, e) at the start and at the end of a step add, all running linearly."""
     n = len(system.A)
-    inputs = np.column_stack([system.B, system.E, tracking])
+    inputs = np.column_stack([system.B, system.E, system.E[:, 1] + tracking])
     first, second, Phi = np.empty_like(inputs), np.empty_like(inputs), np.eye(n)
     for j in range(inputs.shape[1]):
         Phi, first[:, j], second[:, j] = Linear(system.A, inputs[:, j], np.zeros((0, n)), np.zeros(0)).ramp(dt)

@@ -6,21 +6,11 @@ import numpy as np
 import pytest
 
 from simc_core import (
-    CascadeLoop,
-    InvalidParameter,
-    Loop,
-    NestedLoops,
-    NotStable,
-    ParallelPid,
     Plant,
-    SeriesPid,
     direct_synthesis,
-    frequency_response,
     margins,
     performance,
     simc_cascade,
-    stability,
-    synthesis_cascade,
 )
 from simc_core.direct_synthesis import numerator
 from tests.core.pairs import PAIRS
@@ -103,52 +93,3 @@ def test_simc_cascade_with_given_peaks():
 def test_IE_of_a_load_is_the_inverse_of_the_integral_gain():
     """IE_d1 = 1/k_ia where y1 stays on one side: IAE is the same; the tight design of pair 1 has IAE_d1 = 14."""
     assert pytest.approx(14.0, rel=1e-6) == performance(simc_cascade(*PAIRS[1], inner="PID").loop).disturbance.IAE
-
-
-def test_a_stable_cascade_round_an_unstable_inner_loop_is_flagged():
-    """Positive feedback inside, held up by the outer loop (shared/cascade.md, method 1)."""
-    primary, secondary = Plant(1.0, 0.0, (0.1,)), Plant(1.0, 0.1, (1.0,))
-    loop = CascadeLoop(primary, secondary, ParallelPid(-2.0, -1.0), ParallelPid(-1.2, 0.0))
-    found = stability(loop)
-    assert found.verdict == "stable"
-    assert found.inner.verdict == "unstable"
-    assert not found.sound
-    assert math.isnan(margins(loop.outer_loop).Ms)
-
-
-def test_three_loops():
-    """Design from the inside out; the certificate, the peaks and the direct formula agree."""
-    blocks = (Plant(1, 0.1, (0.5,)), Plant(2, 0.5, (3,)), Plant(1, 1.0, (20,)))
-    C1 = direct_synthesis(blocks[0], 0.15, "PI")
-    one = Loop(blocks[0], C1)
-    C2 = direct_synthesis(blocks[1], 1.0, "PI", inside=one)
-    two = NestedLoops(blocks[:2], (C1, C2))
-    C3 = direct_synthesis(blocks[2], 3.0, "PI", inside=two)
-    three = NestedLoops(blocks, (C1, C2, C3))
-    assert stability(three).sound
-    assert stability(three).inner.inner.verdict == "stable"
-    s = 1j * np.geomspace(1e-3, 1e2, 200_000)
-    L = [block.response(s) * C.response(s) for block, C in zip(blocks, (C1, C2, C3), strict=True)]
-    T = L[0] / (1 + L[0])
-    T = L[1] * T / (1 + L[1] * T)
-    outer = L[2] * T
-    assert pytest.approx(outer[::1000], rel=1e-10) == frequency_response(three, s.imag[::1000]).L
-    assert margins(three).Ms == pytest.approx(np.max(np.abs(1 / (1 + outer))), rel=1e-7)
-    found = performance(three)
-    assert len(found.disturbances) == 3
-    assert found.setpoint.settling_time < 60
-    for gain in (margins(three).GM * 0.99, margins(three).GM * 1.01):  # the certificate knows the gain margin
-        turned = NestedLoops(blocks, (C1, C2, ParallelPid(C3.Kp * gain, C3.Ki * gain)))
-        assert stability(turned).verdict == ("stable" if gain < margins(three).GM else "unstable")
-
-
-def test_errors_say_what_to_do():
-    with pytest.raises(InvalidParameter, match="direct synthesis"):
-        simc_cascade(*PAIRS[6])
-    with pytest.raises(InvalidParameter, match="smallest peak of a stable loop"):
-        synthesis_cascade(*PAIRS[5], 2.0, 2.0)
-    with pytest.raises(InvalidParameter, match="only one of tau_c_inner and Ms_inner"):
-        simc_cascade(*PAIRS[1], tau_c_inner=1.0, Ms_inner=2.0)
-    with pytest.raises(NotStable):
-        performance(CascadeLoop(*PAIRS[1], SeriesPid(5.0, 5.0), SeriesPid(1.5, 3.0)))
-    assert any("N_outer = 1" in note for note in synthesis_cascade(*PAIRS[4]).notes)

@@ -9,9 +9,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, simulate
+from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, SeriesPid, simulate
 from simc_core.simulation.network import network
-from simc_core.simulation.several_delays import Steps
+from simc_core.simulation.several_delays import Steps, steps_of
 from tests.core.pairs import PAIRS
 
 NODES = 32  # of the contour: about 1e-19 of the largest term of the series
@@ -94,19 +94,39 @@ def numerators(shift, ga, gb, ca, car, cb):
     }[shift]  # fmt: skip
 
 
+def instants(pair: int) -> list[float]:
+    """Between and beyond the first jumps, in units of both dead times; a short inner one makes a long series."""
+    theta = PAIRS[pair][0].theta + PAIRS[pair][1].theta
+    return [part * theta for part in {2: (0.35, 0.93, 1.27), 9: (0.2, 0.99, 1.03)}.get(pair, (0.61, 1.37, 2.4, 4.3))]
+
+
 @pytest.mark.parametrize("pair", PAIRS)
 def test_ten_pairs_against_forty_digits(pair):
-    loop = loop_of(pair)
-    theta = loop.primary.theta + loop.secondary.theta
-    t = {2: 1.27, 9: 1.03}.get(pair, 2.4) * theta  # a short inner dead time makes a long series
-    response = simulate(loop, Scenario(setpoint=1.0, disturbance=0.0, disturbance2=0.0, t=np.array([t])))
-    assert response.y2[0] != 0
-    steps = Steps(network(loop.nested))
-    found = steps.run(20 * theta)(np.array([t]))[0][[1, 0, 2]][:, [0, 2, 1]]
+    """y1, y2 and u for steps of r, d1 and d2, as `simulate` gives them."""
+    loop, t = loop_of(pair), np.array(instants(pair))
     with mpmath.workdps(50):
-        wanted = series(pair, t)
-    assert np.max(np.abs(found - wanted) / np.maximum(1, np.abs(wanted))) < 1e-9
-    assert (response.y[0], response.y2[0], response.u[0]) == pytest.approx(tuple(wanted[:, 0]), rel=1e-8, abs=1e-9)
+        wanted = np.array([series(pair, each) for each in t])
+    for column, name in enumerate(("setpoint", "disturbance", "disturbance2")):
+        heights = {"setpoint": 0.0, "disturbance": 0.0, "disturbance2": 0.0, name: 1.0}
+        times = {"disturbance_time": 0.0, "disturbance2_time": 0.0}
+        found = simulate(loop, Scenario(t=t, **heights, **times))
+        error = np.abs(np.array([found.y, found.y2, found.u]).T - wanted[:, :, column])
+        assert np.max(error / np.maximum(1, np.abs(wanted[:, :, column]))) < 1e-9
+
+
+@pytest.mark.parametrize("pair", PAIRS)
+def test_integrals_to_the_end(pair):
+    """y1 after a load step has the integral -1/k_ia times the change of the outer integrator: 1/k_ia for d1, 0 for d2
+    [PSB]. Says that nothing is lost on the long way to rest, with elements of all lengths."""
+    pieces = steps_of(loop_of(pair).nested).run(400 * sum(block.theta for block in PAIRS[pair]))
+    y1 = pieces.coefficients[:, :, 1, :]
+    even = np.array([1 / (1 - k**2) if k % 2 == 0 else 0.0 for k in range(16)])  # mean of T_k over [-1, 1]
+    means = np.einsum("ikv,k->iv", y1, even)
+    found = np.diff(pieces.edges) @ means
+    scale = np.diff(pieces.edges) @ np.abs(means)
+    k_ia = SETTINGS[pair][0][1]
+    assert found[2] == pytest.approx(1 / k_ia, rel=1e-8)
+    assert abs(found[1]) < 1e-8 * max(scale[1], 1 / k_ia)
 
 
 def test_one_controller_round_both_blocks_is_a_single_loop():
@@ -139,6 +159,15 @@ def test_a_tiny_inner_dead_time(ratio):
     half = steps_of(Plant(1, 1 / ratio, (2, 3)))
     y, y_half, y_none = (each.run(80.0)(t)[:, 1, 0] for each in (tiny, half, none))
     assert np.max(np.abs(y - y_none)) == pytest.approx(2 * np.max(np.abs(y_half - y_none)), rel=0.1)
+
+
+def test_a_fast_filter_costs_no_elements():
+    """Kd/tau_F = 1e5: u is the small difference of large numbers, and its rounding must not be taken for detail."""
+    Gb, Ga = Plant(-0.216, 0.0114, (0.31, 0.47, 1.0), (0.36,)), Plant(2.15, 0.4, (2.8, 0.63), integrators=1)
+    Cb, Ca = SeriesPid(-168.6, 0.0946, 0.4736, 0.000612), SeriesPid(0.2152, 8.632, 3.09, 0.0708)
+    steps = Steps(network(NestedLoops((Gb, Ga), (Cb, Ca))))
+    assert steps.run(600.0)(np.array([600.0]))[0, 1, 0] == pytest.approx(1.0, abs=1e-9)
+    assert steps.count < 150
 
 
 def test_load_steps_settle_and_jumps_are_shown_from_both_sides():

@@ -51,8 +51,8 @@ def worst_error(plant: Plant, order: int, rng) -> float:
     present = study(plant, Tuning(order=order))
     of = table.subject(plant, present, "series")
     on = table.bench(of, present)
-    rows, curves = table.rows(of, on)
-    curves = [each.astype(np.float32).astype(float) for each in curves]  # as they travel
+    rows, found = table.rows(of, on)
+    curves = [each.astype(np.float32).astype(float) for each in table.curves(found).values()]  # as they travel
     worst = 0.0
     for x in np.concatenate([rng.uniform(rows.x[0], rows.x[-1], 3), rng.uniform(rows.x[0], rows.x[0] + 2.3, 3)]):
         y, u, re, im = table.responses(of.loop(math.exp(x)), on)
@@ -90,11 +90,13 @@ def test_a_table_holds_what_its_header_says_and_pins_share_its_grid():
     np.testing.assert_array_equal(blocks["pin_y"], exact["y"])
 
 
-@pytest.mark.parametrize("tau_c", [0.7, 7.0, 70.0])
-def test_estimated_metrics_of_a_row_are_near_the_exact_ones(tau_c):
-    present = study(Plant(1.0, 3.0, (6.0, 4.0, 2.0)), Tuning(tau_c=tau_c))
-    on = table.bench(table.subject(present.loop.plant, present, "series"), present)
-    assert table.estimated(present.loop, on) == pytest.approx(table.judged(present, on.omega), rel=0.01, abs=1e-3)
+@pytest.mark.parametrize("order", [1, 2])
+def test_figures_of_a_row_are_those_of_a_study(order):
+    _, of, on, _ = made(Plant(1.0, 3.0, (6.0, 4.0, 2.0)), Tuning(order=order, filter=0.1, b=0.7))
+    grid, found = table.rows(of, on)
+    for i in (0, len(grid.x) // 2, -1):
+        alone = study(of.plant, Tuning(order=order, filter=0.1, b=0.7, tau_c=float(grid.tau_c[i])))
+        assert table.metrics(of, found)[i] == pytest.approx([*table.judged(alone, on.omega).values()], rel=1e-7)
 
 
 def test_unstable_ranges_end_where_stability_does():

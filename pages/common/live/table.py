@@ -9,20 +9,18 @@ import numpy as np
 
 from pages.common.design import Tuning
 from pages.common.live.packing import figures, pack
-from pages.common.study import Study, dressed
+from pages.common.study import Study
 from simc_core.controllers import Controller, IController
 from simc_core.errors import FormError
 from simc_core.grid import omega_grid
-from simc_core.loop import Loop, frequency_response
-from simc_core.margins import Margins, margins
+from simc_core.loop import Loop
 from simc_core.models import Model, UnstableDelay
 from simc_core.plant import Plant
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
 from simc_core.simulation.simulate import settling_horizon
-from simc_core.simulation.steps import unit_steps
-from simc_core.simulation.system import closed_loop
 from simc_core.stability import stability
+from simc_core.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
 from simc_core.tau_table import Rows, first_rows, kinks, refined
 
 SHORTEST, LONGEST = 0.1, 100.0  # of tau_c over theta, on the slider
@@ -48,6 +46,7 @@ FIGURES = (
     "overshoot",
     "noise_gain",
 )
+SWEPT = (*MARGINS[4:], *MARGINS[:4], *METRICS)  # where a Sweep has the first of them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,11 +69,16 @@ class Subject:
 
     def controller(self, tau_c: float) -> Controller:
         """SIMC at tau_c, with set-point weight and filter."""
-        return dressed(simc(self.model, tau_c), self.tuning)
+        return dressed(simc(self.model, tau_c), self.tuning.b, self.tuning.filter)
 
     def loop(self, tau_c: float) -> Loop:
         """The loop round the full plant."""
         return Loop(self.plant, self.controller(tau_c))
+
+    def swept(self, tau_c: np.ndarray, on: "Bench") -> Sweep:
+        """Everything at all tau_c."""
+        b, ratio = self.tuning.b, self.tuning.filter
+        return sweep(self.plant, self.model, tau_c, on.t, on.omega, b, ratio, on.load)
 
 
 def subject(plant: Plant, present: Study, form: str) -> Subject:
@@ -111,14 +115,8 @@ def bounds(model: Model) -> tuple[float, float, float, str]:
 def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) -> bytes:
     """The table as bytes, under its name."""
     low, high, unit, symbol = bounds(of.model)
-    fixed = isinstance(of.model, UnstableDelay)
     grid, found = rows(of, on)
-    tau_c = np.full(2, of.model.theta) if fixed else grid.tau_c
-    blocks = dict(zip(CURVES, found, strict=True))
-    loops = [of.loop(each) for each in tau_c]
-    figures_of = [estimated(loop, on) for loop in loops]
-    stable = np.array([not math.isnan(each["Ms"]) for each in figures_of])
-    names = list(settings(loops[0].controller, of.form))
+    names = list(settings(found.controllers[0], of.form))
     header = {
         "kind": "table",
         "id": name,
@@ -133,32 +131,53 @@ def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) 
         "symbol": symbol,
         "low": low,
         "high": high,
-        "fixed": fixed,
-        "unstable": unstable_ranges(grid.tau_c, stable, lambda each: stability(of.loop(each)).verdict == "stable"),
+        "fixed": isinstance(of.model, UnstableDelay),
+        "unstable": unstable_ranges(
+            grid.tau_c, found.stable, lambda each: stability(of.loop(each)).verdict == "stable"
+        ),
         "presets": list(tau_c_presets(of.model).items()),
         "pins": [{"name": letter, "metrics": figures(judged(each, on.omega))} for letter, each in pins],
-        "y_cap": cap(blocks["y"][stable], 1.0),
-        "u_cap": cap(blocks["u"][stable], 1.0),
     }
-    blocks["settings"] = np.array([list(settings(loop.controller, of.form).values()) for loop in loops])
-    blocks["metrics"] = np.array([[each[figure] for figure in FIGURES] for each in figures_of])
+    blocks = curves(found)
+    for field in ("y", "u"):
+        header[f"{field}_cap"] = cap(blocks[field][found.stable], 1.0)
+    blocks["settings"] = np.array([list(settings(each, of.form).values()) for each in found.controllers])
+    blocks["metrics"] = metrics(of, found)
     if pins:
         pinned = zip(*[responses(each.loop, on) for _, each in pins], strict=True)
         blocks |= {f"pin_{field}": np.array(rows) for field, rows in zip(CURVES, pinned, strict=True)}
     return pack(header, blocks)
 
 
-def rows(of: Subject, on: Bench) -> tuple[Rows, list[np.ndarray]]:
-    """Rows close enough for reading between them, and y, u, Re L, Im L there, each of shape (rows, points)."""
+def rows(of: Subject, on: Bench) -> tuple[Rows, Sweep]:
+    """Rows close enough for reading between them, and everything there."""
     low, high, *_ = bounds(of.model)
     if isinstance(of.model, UnstableDelay):  # the rule knows one tau_c: two rows of the same
-        grid, tau_c = Rows(np.log([0.99, 1.01]) + math.log(of.model.theta), (0, 1)), np.full(2, of.model.theta)
-        found = _time_curves(of, on, tau_c)
-    else:
-        grid, found = refined(first_rows(low, high, kinks(of.model)), lambda tau_c: _time_curves(of, on, tau_c))
-        tau_c = grid.tau_c
-    L = np.array([of.loop(each).L(1j * on.omega) for each in tau_c])
-    return grid, [*found, L.real, L.imag]
+        grid = Rows(np.log([0.99, 1.01]) + math.log(of.model.theta), (0, 1))
+        return grid, of.swept(np.full(2, of.model.theta), on)
+
+    def compute(tau_c: np.ndarray) -> list[np.ndarray]:
+        controllers = [of.controller(each) for each in tau_c.tolist()]
+        y, u = time_curves(of.plant, controllers, on.t, on.load).sum(axis=2).transpose(1, 0, 2)
+        return [y, u]
+
+    grid, _ = refined(first_rows(low, high, kinks(of.model)), compute)
+    return grid, of.swept(grid.tau_c, on)
+
+
+def curves(found: Sweep) -> dict[str, np.ndarray]:
+    """CURVES of a sweep: a step of r at 0 and one of d at the time of the load; each of shape (rows, points)."""
+    y, u = found.y_setpoint + found.y_disturbance, found.u_setpoint + found.u_disturbance
+    return dict(zip(CURVES, (y, u, found.L.real, found.L.imag), strict=True))
+
+
+def metrics(of: Subject, found: Sweep) -> np.ndarray:
+    """FIGURES of all rows, (rows, figures)."""
+    values = {name: getattr(found, of_sweep) for name, of_sweep in zip(FIGURES, SWEPT, strict=False)}
+    G = of.plant.response(1j * found.omega)
+    noise = [noise_gain(L, G, each) for L, each in zip(found.L, found.controllers, strict=True)]
+    values["noise_gain"] = np.where(found.stable, noise, np.nan)
+    return np.array([values[name] for name in FIGURES]).T
 
 
 def exact(of: Subject, on: Bench, present: Study, name: str, answers: int) -> bytes:
@@ -184,57 +203,32 @@ def responses(loop: Loop, on: Bench) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 
 def judged(each: Study, omega: np.ndarray) -> dict[str, float]:
-    """FIGURES of a study, exact; all nan where the loop is not stable."""
+    """FIGURES of a study; all nan where the loop is not stable."""
     if not each.stable:
         return dict.fromkeys(FIGURES, math.nan)
-    metrics = each.performance
+    metrics, s = each.performance, 1j * omega
     values = (
+        *(getattr(each.margins, name) for name in SWEPT[:6]),
         metrics.setpoint.IAE,
         metrics.disturbance.IAE,
         metrics.setpoint.TV,
         metrics.disturbance.TV,
         metrics.setpoint.overshoot,
+        noise_gain(each.loop.L(s), each.loop.plant.response(s), each.controller),
     )
-    return _figures(each.margins, values, noise_gain(each.loop, omega))
+    return dict(zip(FIGURES, values, strict=True))
 
 
-def estimated(loop: Loop, on: Bench) -> dict[str, float]:
-    """FIGURES of a row: margins exact, metrics by sums over the horizon, good to a per cent or so.
+def noise_gain(L: np.ndarray, G: np.ndarray, controller: Controller) -> float:
+    """Largest |K S| = |L/G/(1 + L)|, measurement noise to input, at the frequencies of L and G and beyond all of them.
 
-    What lies beyond the horizon is taken to have one sign, so that the exact integral of the error closes the sum:
-    int e dt = (u(inf) - Kp (b - 1))/Ki for the set point, -1/Ki for the load.
+    Infinite for a derivative without filter.
     """
-    found = margins(loop)
-    if not found.stable:
-        return dict.fromkeys(FIGURES, math.nan)
-    form, plant, end = loop.controller.to_parallel(), loop.plant, float(on.t[-1])
-    t = np.union1d(np.linspace(0.0, end, POINTS), np.geomspace(end * 1e-4, end, POINTS))
-    at_rest = 0.0 if plant.integrators else 1 / plant.k
-    (y, y_d), (u, u_d) = np.moveaxis(unit_steps(closed_loop(loop), end)(t), 0, 2)
-    first = _summed(t, 1 - y, u, at_rest, (at_rest - form.Kp * (form.b - 1)) / form.Ki)
-    second = _summed(t, -y_d, u_d, -1.0, -1 / form.Ki)
-    overshoot = max(float(y.max()) - 1, 0.0)
-    return _figures(found, (first[0], second[0], first[1], second[1], overshoot), noise_gain(loop, on.omega))
-
-
-def _summed(t: np.ndarray, e: np.ndarray, u: np.ndarray, at_rest: float, total: float) -> tuple[float, float]:
-    """IAE and TV from samples; total: the integral of e to infinity, at_rest: the last value of u."""
-    IAE = float(np.trapezoid(np.abs(e), t)) + abs(total - float(np.trapezoid(e, t)))
-    return IAE, float(abs(u[0]) + np.sum(np.abs(np.diff(u))) + abs(u[-1] - at_rest))
-
-
-def _figures(found: Margins, metrics: tuple[float, ...], noise: float) -> dict[str, float]:
-    of_margins = [getattr(found, name) for name in FIGURES[:6]]
-    return dict(zip(FIGURES, (*of_margins, *metrics, noise), strict=True))
-
-
-def noise_gain(loop: Loop, omega: np.ndarray) -> float:
-    """Largest |K S| from measurement noise to the input, at omega and in the limit; infinite for an unfiltered PID."""
-    form = loop.controller.to_parallel()
+    form = controller.to_parallel()
     if form.Kd and not form.tau_F:
         return math.inf
-    at_infinity = abs(form.Kd / form.tau_F + 0.0 if form.tau_F else form.Kp)
-    return max(float(np.max(np.abs(frequency_response(loop, omega).KS))), at_infinity)
+    at_infinity = abs(form.Kd / form.tau_F if form.tau_F else form.Kp)
+    return max(float(np.max(np.abs(L / (G * (1 + L))))), at_infinity)
 
 
 def settings(controller: Controller, form: str) -> dict[str, float]:
@@ -273,9 +267,3 @@ def name_of(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]]) -> str:
     """Same name, same table."""
     what = (of, float(on.t[-1]), len(on.omega), float(on.omega[0]), float(on.omega[-1]), [p.tuning for _, p in pins])
     return hashlib.sha256(repr(what).encode()).hexdigest()[:16]
-
-
-def _time_curves(of: Subject, on: Bench, tau_c: np.ndarray) -> list[np.ndarray]:
-    """y and u, each of shape (n_tau_c, points)."""
-    each = [responses(of.loop(value), on)[:2] for value in tau_c]
-    return [np.array(column) for column in zip(*each, strict=True)]

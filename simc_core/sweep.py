@@ -1,0 +1,160 @@
+"""Many values of tau_c at once: everything the tuning page shows, as arrays of shape (len(tau_c), ...).
+
+All tunings of a plant share what the plant does: in time (simulation/march.py: one matrix product for all of them), and
+in frequency (one grid, one search, one certificate for all).
+"""
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from simc_core import checks
+from simc_core.controllers import Controller, IController
+from simc_core.errors import InvalidParameter
+from simc_core.loop import Loop, at_frequencies
+from simc_core.margins import margins
+from simc_core.metrics import measures
+from simc_core.models import Model
+from simc_core.performance import both_steps
+from simc_core.plant import Plant
+from simc_core.simc import simc
+from simc_core.simulation.course import Course
+from simc_core.simulation.march import march
+from simc_core.simulation.scenario import instants
+
+MOST_TUNINGS = 10_000
+TOGETHER = 250  # tunings in one march: a bound on memory
+MARGINS = ("GM", "GM_lower", "PM_deg", "delay_margin", "Ms", "Mt")
+METRICS = ("IAE_setpoint", "IAE_disturbance", "TV_setpoint", "TV_disturbance", "overshoot")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sweep:
+    """n tunings of one plant. Margins and metrics are nan where the loop is not stable.
+
+    tau_c, stable, GM ... overshoot: (n,), as in Margins and Performance; overshoot of the set-point step.
+    y_setpoint, u_setpoint, y_disturbance, u_disturbance: (n, len(t)), unit steps, right-hand limits at jumps.
+    L: (n, len(omega)), complex.
+    """
+
+    tau_c: np.ndarray
+    controllers: tuple[Controller, ...]
+    t: np.ndarray
+    omega: np.ndarray
+    y_setpoint: np.ndarray
+    u_setpoint: np.ndarray
+    y_disturbance: np.ndarray
+    u_disturbance: np.ndarray
+    L: np.ndarray
+    stable: np.ndarray
+    GM: np.ndarray
+    GM_lower: np.ndarray
+    PM_deg: np.ndarray
+    delay_margin: np.ndarray
+    Ms: np.ndarray
+    Mt: np.ndarray
+    IAE_setpoint: np.ndarray
+    IAE_disturbance: np.ndarray
+    TV_setpoint: np.ndarray
+    TV_disturbance: np.ndarray
+    overshoot: np.ndarray
+
+
+def sweep(
+    plant: Plant,
+    model: Model,
+    tau_c,
+    t,
+    omega,
+    b: float = 1.0,
+    filter_ratio: float = 0.0,
+    disturbance_time: float = 0.0,
+) -> Sweep:
+    """SIMC tunings of `model` for all tau_c > 0 (n,), in the loop round `plant`; see Sweep.
+
+    t, omega: increasing instants >= 0 and frequencies > 0.   b: set-point weight.   filter_ratio: tau_F/tau_D.
+    disturbance_time: when the load step begins.   Raises InvalidParameter for bounds, as simc and march do.
+    """
+    tau_c, t, omega = _tau_c(tau_c), instants(t), at_frequencies(omega)
+    controllers = tuple(dressed(simc(model, each), b, filter_ratio) for each in tau_c.tolist())
+    loops = [Loop(plant, controller) for controller in controllers]
+    found = [margins(loop) for loop in loops]
+    stable = [each.stable for each in found]
+    curves, metrics = _curves_and_metrics(plant, controllers, stable, t, disturbance_time)
+    G = plant.factored(1j * omega)
+    return Sweep(
+        tau_c,
+        controllers,
+        t,
+        omega,
+        *(curves[:, signal, source] for source in range(2) for signal in range(2)),
+        np.array([G * controller.factored(1j * omega) for controller in controllers]),
+        np.array(stable),
+        *(np.array([getattr(each, name) for each in found]) for name in MARGINS),
+        *metrics.T,
+    )
+
+
+def dressed(controller: Controller, b: float, filter_ratio: float) -> Controller:
+    """`controller` with set-point weight b and tau_F = filter_ratio tau_D; pure I action takes neither."""
+    if isinstance(controller, IController):
+        return controller
+    return replace(controller, b=b, tau_F=filter_ratio * controller.tau_D)
+
+
+def time_curves(
+    plant: Plant, controllers: Sequence[Controller], t: np.ndarray, disturbance_time: float = 0.0
+) -> np.ndarray:
+    """y, u for unit steps of r and of d, (n, 2, 2, len(t)); stable or not."""
+    found = np.zeros((len(controllers), 2, 2, len(t)))
+    for some, course in _courses(plant, controllers, [float(t[-1]) or 1.0] * len(controllers)):
+        found[some] = _at(course, t, disturbance_time)
+    return found
+
+
+def _curves_and_metrics(
+    plant: Plant, controllers: Sequence[Controller], stable: Sequence[bool], t: np.ndarray, disturbance_time: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """As time_curves, and METRICS, (n, 5); nan where the loop is not stable, or too near its limit to come to rest."""
+    n = len(controllers)
+    curves, metrics = np.zeros((n, 2, 2, len(t))), np.full((n, len(METRICS)), math.nan)
+    ends = [None if each else float(t[-1]) or 1.0 for each in stable]
+    for some, course in _courses(plant, controllers, ends):
+        curves[some] = _at(course, t, disturbance_time)
+        rest, k = course.at_rest, len(some)
+        if rest.any():
+            found = measures(both_steps(course))
+            columns = (found.IAE[:k], found.IAE[k:], found.TV[:k], found.TV[k:], found.overshoot[:k])
+            metrics[some[rest]] = np.array(columns).T[rest]
+    return curves, metrics
+
+
+def _courses(
+    plant: Plant, controllers: Sequence[Controller], ends: Sequence[float | None]
+) -> Iterator[tuple[np.ndarray, Course]]:
+    """Tunings that can march together, and their course; ends: None for one that goes to its rest."""
+    forms = [controller.to_parallel() for controller in controllers]
+    alike: dict[tuple, list[int]] = defaultdict(list)
+    for i, (form, end) in enumerate(zip(forms, ends, strict=True)):
+        alike[form.tau_F, form.Kd != 0, end].append(i)
+    for (*_, end), members in alike.items():
+        for at in range(0, len(members), TOGETHER):
+            some = members[at : at + TOGETHER]
+            yield np.array(some), march(plant, [forms[i] for i in some], end)
+
+
+def _at(course: Course, t: np.ndarray, disturbance_time: float) -> np.ndarray:
+    values = course(t)
+    if disturbance_time:
+        values[:, :, 1] = course(t - disturbance_time)[:, :, 1]
+    return values
+
+
+def _tau_c(given) -> np.ndarray:
+    values = np.atleast_1d(np.asarray(given, dtype=float))
+    if values.ndim != 1 or not 1 <= values.size <= MOST_TUNINGS:
+        raise InvalidParameter(f"tau_c must be a list of 1 to {MOST_TUNINGS} times, got shape {values.shape}")
+    return np.array([checks.positive_time("tau_c", each) for each in values.tolist()])
