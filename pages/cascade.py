@@ -22,7 +22,7 @@ with controls:
     cascade_widgets.blocks()
     cascade_widgets.method()
     cascade_widgets.loops(present)
-    form = cascade_widgets.form()
+    form = cascade_widgets.form(present)
     if present is not None:
         cascade_guards.show(present)
 with picture:

@@ -11,9 +11,8 @@ from html import escape
 import streamlit as st
 
 from pages.common.cascade_study import CascadeStudy
-from pages.common.tuning_widgets import FIELDS, in_form
+from pages.common.tuning_widgets import FIELDS, has_form, in_form
 from simc_core.controllers import Controller, IController
-from simc_core.errors import FormError
 from simc_core.notation import latex_factors, number, plain
 from simc_core.plant import Plant
 
@@ -107,10 +106,8 @@ def narrow(study: CascadeStudy, form: str) -> str:
 
 def settings_lines(controller: Controller, form: str) -> list[tuple[str, float]]:
     """Names and values of the settings in `form`; in the parallel form where there is none."""
-    try:
-        shown = in_form(controller, form)
-    except FormError:
-        shown, form = controller.to_parallel(), "parallel"
+    form = form if has_form(controller, form) else "parallel"
+    shown = in_form(controller, form)
     if isinstance(shown, IController):
         return [("K_I", shown.K_I)]
     fields = [(name, getattr(shown, name)) for name in FIELDS[form] if name not in ("tau_D", "Kd")]
@@ -121,18 +118,16 @@ def settings_lines(controller: Controller, form: str) -> list[tuple[str, float]]
 def _boxes(study: CascadeStudy, form: str, plants: int) -> tuple[Box, Box, Box, Box]:
     """Ca, Cb, Gb, Ga. plants: px that the lines of a plant may take."""
     loop = study.loop
-    kinds = study.cascade.outer, study.cascade.inner
-    controllers = [
-        Box(where, f"C{index} {kind}", tuple(_setting(*each) for each in settings_lines(controller, form)))
-        for where, index, kind, controller in (
-            ("outer", "ₐ", kinds[0], loop.outer),
-            ("inner", "ᵦ", kinds[1], loop.inner),
-        )
-    ]
-    return *controllers, _plant_box("Gᵦ", loop.secondary, plants), _plant_box("Gₐ", loop.primary, plants)
+    controllers = []
+    for kind, index, controller in (("outer", "a", loop.outer), ("inner", "b", loop.inner)):
+        name = f"{_indexed('C', index)} {getattr(study.cascade, kind)}"
+        lines = tuple(_setting(*each) for each in settings_lines(controller, form))
+        controllers.append(Box(kind, name, lines))
+    return *controllers, _plant_box("b", loop.secondary, plants), _plant_box("a", loop.primary, plants)
 
 
-def _plant_box(name: str, plant: Plant, width: int) -> Box:
+def _plant_box(index: str, plant: Plant, width: int) -> Box:
+    name = _indexed("G", index)
     top, bottom = (_wrapped(factors, width) for factors in latex_factors(plant))
     if len(top) > MOST_LINES or len(bottom) > MOST_LINES:
         return Box("box", name, ("as on top",))
@@ -173,7 +168,12 @@ def _svg_text(latex: str) -> str:
 
 def _setting(name: str, value: float) -> str:
     letter, index = GREEK.get(name, (name[0], name[-1]))
-    return f'{letter}<tspan dy="3" font-size="9">{index}</tspan><tspan dy="-3"> = {escape(number(value))}</tspan>'
+    return f"{_indexed(letter, index)} = {escape(number(value))}"
+
+
+def _indexed(letter: str, index: str) -> str:
+    """A letter with a lowered index, and back on the line behind it."""
+    return f'{letter}<tspan dy="3" font-size="9">{index}</tspan><tspan dy="-3">\u200b</tspan>'
 
 
 def _box(x: float, y: float, width: float, box: Box) -> str:

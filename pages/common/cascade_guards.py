@@ -4,22 +4,27 @@ import streamlit as st
 
 from pages.common import state
 from pages.common.cascade_readout import separation, trouble
-from pages.common.cascade_study import CascadeStudy
+from pages.common.cascade_study import CascadeStudy, speed_symbol
 from pages.common.guards import STYLE
 from pages.common.symbols import symbols
 
 
 def show(study: CascadeStudy) -> None:
-    """Notes of the design as warnings, soundness as an error, the time scales."""
+    """Soundness as an error, notes of the design as warnings, the time scales where no note speaks of them."""
     st.html(STYLE)
     with st.container(key="guards", gap="xsmall"):
         if not study.sound:
-            st.error(f"**{trouble(study)}**, so nothing is said of margins and metrics. *Slow that loop down.*")
+            inside = study.stability.inner.verdict != "stable"
+            st.error(
+                f"**{trouble(study)}**, so nothing is said of margins and metrics. "
+                f"*Give the {'inner' if inside else 'outer'} loop a larger ${speed_symbol(study.cascade)}$.*"
+            )
         for note in study.design.notes:
-            st.warning(symbols(note[0].upper() + note[1:] if note[0].islower() and " " in note[:4] else note))
+            st.warning(symbols(note))
         if study.unsettled:
             st.warning(symbols(f"No IAE: {study.unsettled}"))
-        st.caption(separation(study))
+        if study.cascade.method == "synthesis" or study.separate:
+            st.caption(separation(study))
 
 
 def offer_synthesis() -> None:

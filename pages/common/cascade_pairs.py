@@ -2,6 +2,7 @@
 
 import streamlit as st
 
+from pages.common.symbols import symbols
 from simc_core.cascade_examples import Judged, judged_pairs
 from simc_core.notation import number, plain
 
@@ -17,12 +18,21 @@ def pairs_view() -> None:
         "ours is from it; without brackets, nothing is printed that we could compare with."
     )
     st.dataframe([indices(each) for each in found], hide_index=True, width="stretch", height="content", key="indices")
+    st.markdown("\n".join(f"- **{names}**: {symbols(note)}" for note, names in notes(found).items()))
     st.markdown("**Settings**, parallel form $k + k_i/s + k_d s$")
     st.dataframe([settings(each) for each in found], hide_index=True, width="stretch", height="content", key="settings")
     st.caption(
         "[PSB] Prelić, Šekara, Bošković, cascade control by direct synthesis under constraints on robustness. "
         "Printed digits of Msa are those of the constraint."
     )
+
+
+def notes(found: tuple[Judged, ...]) -> dict[str, str]:
+    """Why rows differ from the paper, or what they show, and the names of the rows it is said of."""
+    gathered: dict[str, list[str]] = {}
+    for each in found:
+        gathered.setdefault(each.row.note, []).append(each.row.name)
+    return {note: ", ".join(names) for note, names in gathered.items() if note}
 
 
 def indices(each: Judged) -> dict[str, str]:
@@ -35,7 +45,6 @@ def indices(each: Judged) -> dict[str, str]:
         "Mpa": beside(each.outer.Mt, printed and printed.Mpa),
         "IAE d₁": beside(each.performance.disturbance.IAE, printed and printed.IAE_d1),
         "IAE d₂": beside(each.performance.disturbance2.IAE, printed and printed.IAE_d2),
-        "why they differ": each.row.note,
         "Ga": plain(each.row.blocks[0]),
         "Gb": plain(each.row.blocks[1]),
     }
@@ -60,4 +69,5 @@ def beside(ours: float, printed: float | None) -> str:
         return number(ours)
     if printed == 0:
         return number(ours) + (" (0)" if ours == 0 else " (printed 0)")
-    return f"{number(ours)} ({number(printed)}, {100 * (ours / printed - 1):+.1f} %)"
+    per_cent = round(100 * (ours / printed - 1), 1) or 0.0  # not -0.0
+    return f"{number(ours)} ({number(printed)}, {per_cent:+.1f} %)".replace("-", "−")

@@ -2,8 +2,7 @@
 
 import streamlit as st
 
-from pages.common.cascade_readout import sentence
-from pages.common.cascade_study import CascadeStudy, frequency_responses, responses, starts
+from pages.common.cascade_study import CascadeStudy, frequency_responses, starts, time_responses
 from pages.common.panels import Panel, field, show
 from simc_core.figures import (
     inner_output_figure,
@@ -17,12 +16,12 @@ from simc_core.figures.curves import bode_curve, nested_bode_curve
 from simc_core.margins import crossings
 from simc_core.notation import number
 
-HEIGHT, TALL = 225, 400  # px
+HEIGHT, TALL = 215, 400  # px
 
 
 def panels(study: CascadeStudy) -> None:
     """y1, y2, u with the single loop behind them, and L of both loops."""
-    curves = responses(study)
+    curves = time_responses(study)
     stable = study.stability.verdict == "stable"
     judged = study.outer, study.inner
     field(
@@ -39,7 +38,6 @@ def panels(study: CascadeStudy) -> None:
         )
     )
     d1, d2 = starts(curves[0][1])
-    st.markdown(sentence(study))
     st.caption(
         f"Unit steps: set point at t = 0, $d_1$ at the input of $G_a$ at t = {number(d1)}, $d_2$ at the input of $G_b$ "
         f"at t = {number(d2)}; time in the unit of your time constants. Dashed: one PID controller for $G_a G_b$, "

@@ -4,7 +4,7 @@ import math
 
 import streamlit as st
 
-from pages.common.cascade_study import CascadeStudy, gain_in_IAE
+from pages.common.cascade_study import CascadeStudy, gain_in_IAE, speed_symbol
 from pages.common.readout import DIGITS, STYLE, Reading, band_of, cell_html, hover, reading
 from simc_core.cascade_design import SEPARATE
 from simc_core.figures import palette
@@ -27,6 +27,8 @@ STEPS = ("r", "d₁", "d₂")
 def readout(study: CascadeStudy) -> None:
     """The strip and a sentence on what the inner loop gains; of a cascade that is not sound it holds no numbers."""
     st.html(STYLE + MORE_STYLE + strip_html(study))
+    if study.sound:
+        st.caption(sentence(study))
 
 
 def strip_html(study: CascadeStudy) -> str:
@@ -54,7 +56,7 @@ def sentence(study: CascadeStudy) -> str:
     """What the inner loop gains against d2, in numbers."""
     pair = gain_in_IAE(study)
     if pair is None:
-        why = study.no_single or study.unsettled or "the cascade is not sound"
+        why = study.no_single or study.unsettled
         return f"No comparison with a single loop: {why}."
     ours, single = pair
     if ours < single:
@@ -70,18 +72,18 @@ def sentence(study: CascadeStudy) -> str:
 
 def separation(study: CascadeStudy) -> str:
     """How far apart the loops are in time, in words."""
-    symbol = r"\tau_c" if study.cascade.method == "simc" else r"\lambda"
-    ratio = f"outer ${symbol}$ / inner ${symbol}$ = **{number(study.separation, DIGITS)}**"
+    symbol = speed_symbol(study.cascade)
+    ratio = f"Time scales: outer ${symbol}$ / inner ${symbol}$ = **{number(study.separation, DIGITS)}**"
     if study.cascade.method == "synthesis":
-        return f"Time scales: {ratio}. The outer design knows the closed inner loop, so the two need not be far apart."
+        return f"{ratio}. The outer design knows the closed inner loop, so the two need not be far apart."
     if study.separate:
-        return f"Time scales: {ratio} ≥ {SEPARATE:g}. The loops separate: to the outer one the inner one is fast."
-    return f"Time scales: {ratio} < {SEPARATE:g}. The loops work at the same speed and feel one another."
+        return f"{ratio} ≥ {SEPARATE:g}. The loops separate: to the outer one the inner one is fast."
+    return f"{ratio} < {SEPARATE:g}. The loops work at the same speed and feel one another."
 
 
 def _first(label: str, judged: Margins) -> str:
     cell = reading(label, judged.Ms)
-    band, _ = band_of(judged.Ms)
+    band, _ = band_of(round(judged.Ms, 6))  # an Ms of 2 that was asked for and met is not above 2
     return (
         f'<div class="first {band}" title="{hover(cell)}"><small>{label}</small><b>{cell.text}</b>'
         f"<span>{SHORT[band]}</span></div>"

@@ -4,6 +4,7 @@ import streamlit as st
 
 from pages.common.cascade_study import CascadeStudy
 from pages.common.design import FORMS
+from pages.common.symbols import symbols
 from pages.common.tuning_widgets import STRUCTURE, as_text, in_form
 from simc_core.controllers import Controller
 from simc_core.errors import FormError
@@ -30,4 +31,4 @@ def _in_form(controller: Controller, form: str) -> None:
     try:
         st.code(as_text(in_form(controller, form), form), language=None)
     except FormError as error:
-        st.info(f"No {form} form: {error}")
+        st.info(symbols(f"No {form} form: {error}"))

@@ -89,6 +89,14 @@ def study(cascade: Cascade) -> CascadeStudy:
     return CascadeStudy(cascade, design, verdict, outer, inner, found, unsettled, single, no_single)
 
 
+def attempt(cascade: Cascade) -> tuple[CascadeStudy | None, SimcError | None]:
+    """The study, or why there is none: the page keeps its controls either way."""
+    try:
+        return study(cascade), None
+    except SimcError as error:
+        return None, error
+
+
 def designed(cascade: Cascade) -> CascadeDesign:
     """By the method chosen. A tau_c goes before an Ms. Raises SimcError."""
     each = cascade
@@ -114,7 +122,7 @@ def designed(cascade: Cascade) -> CascadeDesign:
 
 
 @lru_cache(maxsize=KEPT)
-def responses(study: CascadeStudy) -> tuple[tuple[str, NestedResponse], ...]:
+def time_responses(study: CascadeStudy) -> tuple[tuple[str, NestedResponse], ...]:
     """Steps of r, then of d1, then of d2; of the single loop at the same instants, where it is stable."""
     first = simulate(study.loop, Scenario())
     found = [("cascade", first)]
@@ -163,6 +171,11 @@ def gain_in_IAE(study: CascadeStudy) -> tuple[float, float] | None:
     return study.performance.disturbance2.IAE, study.single.performance.disturbance2.IAE
 
 
+def speed_symbol(cascade: Cascade) -> str:
+    """tau_c of SIMC, lambda of the direct synthesis, as LaTeX."""
+    return r"\tau_c" if cascade.method == "simc" else r"\lambda"
+
+
 def scale(cascade: Cascade, loop: str) -> float:
     """A time to measure the speed of a loop by: dead times and time constants of its blocks together."""
     blocks = [cascade.secondary] if loop == "inner" else [cascade.primary, cascade.secondary]
@@ -188,11 +201,3 @@ def _single(cascade: Cascade) -> tuple[SingleLoop | None, str]:
         return SingleLoop(loop, None), "it is not stable"
     found, why = _performance(loop)
     return SingleLoop(loop, found), why
-
-
-def attempt(cascade: Cascade) -> tuple[CascadeStudy | None, SimcError | None]:
-    """The study, or why there is none: the page keeps its controls either way."""
-    try:
-        return study(cascade), None
-    except SimcError as error:
-        return None, error

@@ -5,10 +5,10 @@ from dataclasses import replace
 import streamlit as st
 
 from pages.common import state
-from pages.common.cascade_study import USUAL_MS, CascadeStudy, of_row, scale
+from pages.common.cascade_study import USUAL_MS, CascadeStudy, of_row, scale, speed_symbol
 from pages.common.design import FORMS, HIGHEST_N, KINDS, LOWEST_N, METHODS, Cascade
 from pages.common.plant_entry import plant_entry
-from pages.common.tuning_widgets import nearest
+from pages.common.tuning_widgets import has_form, nearest
 from simc_core.cascade_design import HIGHEST_MS, LOWEST_MS
 from simc_core.cascade_examples import ROWS, PairRow
 from simc_core.checks import LONGEST_TIME
@@ -89,20 +89,20 @@ def loops(study: CascadeStudy | None, slider: bool = True) -> None:
             _loop(loop, study, slider)
 
 
-def form() -> str:
-    """The form in which settings are shown."""
+def form(study: CascadeStudy | None) -> str:
+    """The form in which the diagram shows settings; says which controller has none in it."""
     st.segmented_control("Settings in the diagram", FORMS, **state.bound("form"))
-    return state.value("form")
-
-
-def speed_symbol(cascade: Cascade) -> str:
-    """tau_c of SIMC, lambda of the direct synthesis, as LaTeX."""
-    return r"\tau_c" if cascade.method == "simc" else r"\lambda"
+    chosen = state.value("form")
+    for name, controller in (("a", study.loop.outer), ("b", study.loop.inner)) if study else ():
+        if not has_form(controller, chosen):
+            st.caption(f"$C_{name}$ has no {chosen} form: shown in the parallel one.")
+    return chosen
 
 
 def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
     cascade = state.cascade()
     asked = _asked(cascade, loop)
+    filtered = cascade.method == "synthesis" and getattr(cascade, loop) == "PID"
     with st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall"):
         st.segmented_control(LOOPS[loop], KINDS, **state.bound(loop))
         key = f"{loop}_by"
@@ -116,13 +116,14 @@ def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
             args=(loop, key, study),
             help=_meaning(cascade),
         )
+        if filtered:
+            _filter(loop)
     if asked != "auto":
         _knob(loop, asked, study, slider)
     if study is not None:
         st.caption(_outcome(loop, asked, study))
-    kind = getattr(cascade, loop)
-    if cascade.method == "synthesis" and kind == "PID":
-        _filter(loop)
+    if filtered and loop == "outer":
+        _cancel()
 
 
 def _meaning(cascade: Cascade) -> str:
@@ -132,15 +133,13 @@ def _meaning(cascade: Cascade) -> str:
 
 
 def _outcome(loop: str, asked: str, study: CascadeStudy) -> str:
-    inner, outer = study.speeds
-    speed = inner if loop == "inner" else outer
-    judged = getattr(study, loop)
-    peak = f"$M_s$ = {number(judged.Ms)}" if study.sound else "not sound"
-    return (
-        f"${speed_symbol(study.cascade)}$ = {number(speed)} gives {peak}"
-        if asked != "Ms"
-        else (f"{peak} needs ${speed_symbol(study.cascade)}$ = {number(speed)}")
-    )
+    """What the choice comes to."""
+    speed = f"${speed_symbol(study.cascade)}$ = {number(study.speeds[loop == 'outer'])}"
+    if not study.sound:
+        return speed
+    peak = f"$M_s$ = {number(getattr(study, loop).Ms)}"
+    by_peak = asked == "Ms" or (asked == "auto" and study.cascade.method == "synthesis")
+    return f"{peak} needs {speed}" if by_peak else f"{speed} gives {peak}"
 
 
 def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> None:
@@ -177,30 +176,30 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
 
 
 def _filter(loop: str) -> None:
-    """tau_F of a PID by direct synthesis."""
-    with st.container(horizontal=True, vertical_alignment="center", gap="xsmall"):
-        zero = loop == "outer" and state.value("filter_outer") == "zero"
-        if loop == "outer":
-            st.checkbox(
-                "$\\tau_F$ cancels the inner zero",
-                help="$\\tau_F = \\eta_1$ of the inner loop in place of $\\lambda/N$; for $K_d \\leq 0$.",
-                **state.bound(
-                    "filter_outer",
-                    show=lambda value: value == "zero",
-                    read=lambda checked: "zero" if checked else "N",
-                ),
-            )
-        if not zero:
-            st.number_input(
-                f"N of the {loop} loop",
-                LOWEST_N,
-                HIGHEST_N,
-                step=None,
-                format="%.4g",
-                width=120,
-                help="Derivative filter: $\\tau_F = \\lambda/N$.",
-                **state.bound(f"N_{loop}"),
-            )
+    """tau_F of a PID by direct synthesis: lambda/N, or outside what cancels the inner zero."""
+    if loop == "inner" or state.value("filter_outer") == "N":
+        st.number_input(
+            "$N$",
+            LOWEST_N,
+            HIGHEST_N,
+            step=None,
+            format="%.4g",
+            width=56,
+            help=f"Derivative filter of the {loop} loop: $\\tau_F = \\lambda/N$.",
+            **state.bound(f"N_{loop}"),
+        )
+
+
+def _cancel() -> None:
+    st.checkbox(
+        "$\\tau_F$ cancels the inner zero",
+        help="$\\tau_F = \\eta_1$ of the inner loop in place of $\\lambda/N$; for $K_d \\leq 0$ [PSB].",
+        **state.bound(
+            "filter_outer",
+            show=lambda value: value == "zero",
+            read=lambda checked: "zero" if checked else "N",
+        ),
+    )
 
 
 def _asked(cascade: Cascade, loop: str) -> str:

@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 import streamlit as st
 
-from pages.common.cascade_study import CascadeStudy, responses, starts
+from pages.common.cascade_study import CascadeStudy, starts, time_responses
 from pages.common.panels import show
 from simc_core.figures import inner_setpoint_figure, input_figure, output_figure
 from simc_core.nested import CascadeLoop
@@ -18,11 +18,9 @@ KEPT = 8
 NAMES = {"both": "both protected", "inner": "inner only", "none": "no protection"}
 SHARE = 0.4  # of what u asks for beyond its final value: limits that bite, for a start
 EXPLAINED = (
-    "While u is at its limit the inner loop cannot follow, and both integrals go on adding up an error that nothing "
-    "answers: the inner one winds up against the actuator, the outer one against the inner set point $r_2$. "
-    "Back calculation in the inner controller cures the first alone; passed on to the outer one as the set point that "
-    "the inner loop could have followed, $r_2 + e/K_b$ with $e$ what the limit takes away, it cures both, "
-    "and control is handed back without a bump."
+    "While u is at a limit the inner loop cannot follow, and both controllers go on integrating an error that nothing "
+    "answers. Back calculation stops the inner one; the outer one stops too, and takes over without a bump, when it is "
+    "led back to the set point that the inner loop could have followed, $r_2 + e/K_b$, $e$ what the limit takes away."
 )
 
 
@@ -42,7 +40,7 @@ def windup_view(study: CascadeStudy) -> None:
     )
     limits = lowest if u_min is None else u_min, highest if u_max is None else u_max
     with st.spinner("Simulating three ways"):
-        curves = family(study.loop, *limits, t_end=starts(responses(study)[0][1])[0])
+        curves = family(study.loop, *limits, t_end=starts(time_responses(study)[0][1])[0])
     show(output_figure(curves, HEIGHT), "windup_y", "Output y1 with a limited u, three protections")
     left, right = st.columns(2, gap="small")
     with left:
@@ -57,7 +55,7 @@ def windup_view(study: CascadeStudy) -> None:
 
 def usual_limits(study: CascadeStudy) -> tuple[float, float]:
     """Limits that the linear cascade exceeds after a set-point step, two digits: where u ends, and SHARE beyond."""
-    response = responses(study)[0][1]
+    response = time_responses(study)[0][1]
     u = response.u[response.t < starts(response)[0]]
     final = float(u[-1])
     ends = [final + SHARE * (float(end) - final) for end in (u.min(), u.max())]

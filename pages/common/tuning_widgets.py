@@ -135,6 +135,15 @@ def in_form(controller: Controller, form: str) -> Controller:
     return {"series": controller.to_series, "ideal": controller.to_ideal, "parallel": controller.to_parallel}[form]()
 
 
+def has_form(controller: Controller, form: str) -> bool:
+    """Whether `in_form` has an answer."""
+    try:
+        in_form(controller, form)
+    except FormError:
+        return False
+    return True
+
+
 def as_text(controller: Controller, form: str) -> str:
     """Settings as lines `name = value`, ten digits; for the control system, not for the eye."""
     if isinstance(controller, IController):

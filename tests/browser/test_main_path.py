@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 from tests.browser.tools import THEMES, WIDTHS, fits, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1: PI Kc 0.57, tau_I 8
-PLACES = ("", "plant", "half_rule", "tuning", "accuracy")
+PLACES = ("", "plant", "half_rule", "tuning", "cascade", "accuracy")
 TRACEBACK = "[data-testid=stException]"
 
 
@@ -28,7 +28,7 @@ def type_plant(page: Page, text: str) -> None:
 
 @pytest.mark.parametrize("place", PLACES)
 def test_a_deep_link_may_be_the_first_request_of_a_fresh_server(place, fresh_server, open_page):
-    page = open_page(f"{fresh_server()}/{place}?plant=2 exp(-s)/(10s%2B1)&order=1&tau_c=3")
+    page = open_page(f"{fresh_server()}/{place}?plant=2 exp(-s)/(10s%2B1)&order=1&tau_c=3&Ga=3/(10s%2B1)")
     expect(page.locator(".st-key-line .katex").first).to_contain_text("10s")
     expect(page.get_by_test_id("stSidebarNav")).to_contain_text("Half rule")
     assert page.locator(TRACEBACK).count() == 0

@@ -29,7 +29,24 @@ tunings = st.builds(
     filter=st.floats(0, 10),
     rules=st.sampled_from(["2003", "1998"]),
 )
-cascades = st.builds(Cascade, primary=plants, secondary=plants, method=st.sampled_from(["simc", "synthesis"]))
+peaks = st.none() | st.floats(1.05, 10)
+kinds = st.sampled_from(["PI", "PID"])
+cascades = st.builds(
+    Cascade,
+    primary=plants,
+    secondary=plants,
+    method=st.sampled_from(["simc", "synthesis"]),
+    inner=kinds,
+    outer=kinds,
+    tau_c_inner=st.none() | times,
+    tau_c_outer=st.none() | times,
+    Ms_inner=peaks,
+    Ms_outer=peaks,
+    b=st.floats(0, 2),
+    N_inner=st.floats(0.1, 1000),
+    N_outer=st.floats(0.1, 1000),
+    filter_outer=st.sampled_from(["N", "zero"]),
+)
 designs = st.builds(
     Design,
     plant=plants,
@@ -79,6 +96,8 @@ def test_the_address_of_the_default_is_short():
         ("pins", "!".join(["1~0~2~1~0~2003"] * 5), "at most 4"),
         ("Ms_inner", "0.5", ">= 1.05"),
         ("method", "magic", "simc, synthesis"),
+        ("N_outer", "0.01", ">= 0.1"),
+        ("filter_outer", "pole", "N, zero"),
         ("colour", "red", "no parameter"),
         ("plant", "1" * 5000, "2000 characters"),
     ],

@@ -12,15 +12,15 @@ def run_app(**parameters: str) -> AppTest:
     return _run(ROOT / "pages" / "common" / "router.py", parameters)
 
 
-def run_page(name: str, view: str = "", **parameters: str) -> AppTest:
-    """One page alone, without the router. view: the tab that is open, where a page makes that one only."""
-    return _run(ROOT / "pages" / f"{name}.py", parameters, view)
+def run_page(name: str, view: str = "", tabs: str = "views", **parameters: str) -> AppTest:
+    """One page alone, without the router. view: the tab of `tabs` that is open, where a page makes that one only."""
+    return _run(ROOT / "pages" / f"{name}.py", parameters, view, tabs)
 
 
-def _run(script: Path, parameters: dict[str, str], view: str = "") -> AppTest:
+def _run(script: Path, parameters: dict[str, str], view: str = "", tabs: str = "views") -> AppTest:
     app = AppTest.from_file(str(script), default_timeout=30)
     if view:
-        app.session_state["views"] = view
+        app.session_state[tabs] = view
     app.query_params.update(parameters)
     app.run()
     assert not app.exception, app.exception
