@@ -12,11 +12,14 @@ import streamlit as st
 
 from pages.common import state
 from pages.common.live import components, table
+from pages.common.live.cascade_instrument import cascade_instrument
 from pages.common.study import Study
 from simc_core.errors import InvalidParameter
 from simc_core.margins import margins
 from simc_core.plant import Plant
 from simc_core.tau_table import smallest
+
+__all__ = ["cascade_instrument", "instrument"]
 
 KEY = "live"
 

@@ -19,6 +19,7 @@ def _instrument(name: str, *own: str):
 
 
 tuning = _instrument("tuning", "tuning_panels.js", "tradeoff.js", "tuning.js", "tuning_main.js")
+cascade = _instrument("cascade", "loops.js", "cascade_panels.js", "cascade.js", "cascade_main.js")
 message = st.components.v2.component(
     "simc_live_message", html="<span></span>", js=_text("table.js", "letters.js", "message.js")
 )

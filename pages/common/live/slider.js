@@ -9,16 +9,22 @@ class Slider {
     Object.assign(this, { name, moved, released, dragging: false, timer: 0 });
     this.row = document.createElement("div");
     this.row.className = "top";
-    this.row.innerHTML = `<div class="now">${symbol} = <output class="value">–</output></div>
+    this.row.innerHTML = `<div class="now"><span class="symbol"></span> = <output class="value">–</output></div>
       <div class="track"><div class="rail"></div><div class="handle" role="slider" tabindex="0" aria-orientation="horizontal"></div><div class="scale" aria-hidden="true"></div></div>
       <div class="settings"></div>`;
     const find = (selector) => this.row.querySelector(selector);
     [this.value, this.track, this.rail, this.scale, this.handle, this.settings] = [".value", ".track", ".rail", ".scale", ".handle", ".settings"].map(find);
-    this.handle.setAttribute("aria-label", label);
+    this.call(symbol, label);
     this.track.addEventListener("pointerdown", (event) => this.grab(event));
     this.track.addEventListener("pointermove", (event) => this.dragging && this.follow(event));
     for (const end of ["pointerup", "pointercancel"]) this.track.addEventListener(end, () => this.drop());
     this.handle.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  /** symbol: HTML; label: for those who do not see it. */
+  call(symbol, label) {
+    this.row.querySelector(".symbol").innerHTML = symbol;
+    this.handle.setAttribute("aria-label", label);
   }
 
   /** low, high of tau_c; unit: the length of 1 on the scale, and its symbol; fixed: no choice of tau_c. */
