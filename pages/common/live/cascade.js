@@ -2,7 +2,7 @@
 
 const FIGURES = [
   ["Ms_outer", "Ms of the outer loop", true], ["Ms_inner", "Ms of the inner loop", true],
-  ["GM", "Gain margin, outer"], ["PM_deg", "Phase margin °, outer"], ["delay_margin", "Delay margin, outer"],
+  ["GM", "GM, outer"], ["PM_deg", "PM, outer °"], ["delay_margin", "Delay m., outer"],
   ["IAE_setpoint", "IAE r"], ["IAE_d1", "IAE d1"], ["IAE_d2", "IAE d2"],
 ];
 const NOTHING = Object.fromEntries(FIGURES.map(([name]) => [name, NaN]));

@@ -1,9 +1,9 @@
 """What the instrument of the cascade page is sent: its setting, exact numbers, a table for each slider. No streamlit.
 
-    setup   sliders, instants, frequencies, and Ga and Gb at these: with the settings of both controllers the browser
-            has La and Lb, and their margins, without reading them between rows
-    exact   one design
-    table   over the speed of one loop, the other one held
+setup   sliders, instants, frequencies, and Ga and Gb at these: with the settings of both controllers the browser
+        has La and Lb, and their margins, without reading them between rows
+exact   one design
+table   over the speed of one loop, the other one held
 """
 
 import hashlib
