@@ -23,7 +23,7 @@ def opened(open_page, server, cascade=PAIR_1, **how) -> Page:
 
 
 def handle(page: Page, loop: str):
-    return page.get_by_role("slider", name=f"of the {loop} loop")
+    return live(page).get_by_role("slider", name=f"of the {loop} loop")
 
 
 def value(page: Page, loop: str) -> float:
@@ -66,8 +66,8 @@ def test_a_drag_redraws_without_the_server_and_its_release_asks_once(server, ope
     sent = []
     page.on("websocket", lambda socket: socket.on("framesent", lambda frame: sent.append(frame)))
     page.reload()
-    at_rest(page)
     idle(page)  # both tables have come
+    at_rest(page)
     before = len(sent)
     assert len(drag(page, loop, 0.5, 0.7)) > 8
     assert live(page).get_attribute("data-exact") == "false"
@@ -148,7 +148,7 @@ def test_touch_moves_a_slider(server, open_page):
 
 
 def test_margins_read_from_a_curve_are_those_of_the_core(server, open_page):
-    """marginsOf of loops.js against simc_core.margins: 2 e^{-s}/(8 s + 1) with integral action, and a conditional one."""
+    """marginsOf of loops.js against simc_core.margins, on a first-order and an integrating loop."""
     page = opened(open_page, server)
     script = "\n".join((ROOT / "pages" / "common" / "live" / name).read_text() for name in ("table.js", "loops.js"))
     for plant, Ki in ((Plant(2, 1, (8,)), 4.0), (Plant(1, 0.3, (1,), integrators=1), 0.4)):

@@ -65,7 +65,7 @@ def test_ranges_end_where_the_verdict_changes(pair, loop):
 
 
 def test_sums_of_a_row_are_near_the_exact_metrics():
-    found, of, on = made(cascade_of(1))
+    found, _, on = made(cascade_of(1))
     exact = found.performance
     wanted = exact.setpoint.IAE, exact.disturbance.IAE, exact.disturbance2.IAE
     assert cascade_rows.IAE_by_sums(found.loop, float(on.t[-1])) == pytest.approx(wanted, rel=0.01)

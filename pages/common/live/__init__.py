@@ -6,6 +6,7 @@ Tables and exact numbers travel apart: an unchanged table is a reference of a fe
 cache. uPlot draws (uplot.LICENSE); measured against plotly.js and a canvas of our own, see benchmarks/ui.py.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import streamlit as st
@@ -34,7 +35,8 @@ def instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     if kept.name != name:  # a release must not make the table again
         kept = _Kept(of, float(on.t[-1]), name, table.table(of, on, pins, name))
         state.remember("live_table", kept)
-    components.tuning(key=KEY, data=kept.message, on_release_change=_released)
+    asked = components.tuning(key=KEY, data=kept.message, on_release_change=_released)
+    components.answer_if_unheard(asked, state.memory("live_answers", int), _take)
     refusal, answers = state.memory("live_refusal", str), state.memory("live_answers", int)
     components.message(key=f"{KEY}_exact", data=table.exact(of, on, present, name, answers))
     if refusal:
@@ -52,8 +54,12 @@ class _Kept:
 
 
 def _released() -> None:
-    """The hand has let go: tau_c, or the Ms that tau_c is wanted for."""
-    release = state.widget(KEY)["release"]
+    """The hand has let go."""
+    _take(state.widget(KEY)["release"])
+
+
+def _take(release: Mapping) -> None:
+    """tau_c, or the Ms that tau_c is wanted for."""
     state.remember("live_answers", int(release["n"]))
     state.remember("live_refusal", "")
     try:

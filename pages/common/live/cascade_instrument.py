@@ -1,5 +1,6 @@
 """The instrument of the cascade page: one slider for each loop."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import streamlit as st
@@ -21,7 +22,7 @@ class _Kept:
     end: float | None = None
     messages: dict[str, tuple[str, bytes]] = field(default_factory=dict)
 
-    def made(self, what: str, name: str, make) -> bytes:
+    def made(self, what: str, name: str, make: Callable[[], bytes]) -> bytes:
         """The message of this name; made where the one that is kept has another."""
         if self.messages.get(what, ("",))[0] != name:
             self.messages[what] = (name, make())
@@ -40,8 +41,9 @@ def cascade_instrument(cascade: Cascade) -> None:
     kept.rest, kept.end = of.rest, float(on.t[-1])
     setup = kept.made("setup", cascade_table.setup_name(of, on), lambda: cascade_table.setup(of, on))
     with st.container(gap=None):
-        components.cascade(key=KEY, data=setup, on_release_change=_released)
         answers = state.memory(f"{KEY}_answers", int)
+        asked = components.cascade(key=KEY, data=setup, on_release_change=_released)
+        components.answer_if_unheard(asked, answers, _take)
         components.message(key=f"{KEY}_exact", data=cascade_table.exact(of, on, present, answers))
         for loop in LOOPS:
             name = cascade_table.table_name(of, on, loop)
@@ -55,8 +57,12 @@ def _pause() -> None:
 
 
 def _released() -> None:
-    """The hand has let go of the slider of one loop. What the other one was while it moved, it stays."""
-    release = state.widget(KEY)["release"]
+    """The hand has let go."""
+    _take(state.widget(KEY)["release"])
+
+
+def _take(release: Mapping) -> None:
+    """The speed of one loop. What the other one was while it moved, it stays."""
     state.remember(f"{KEY}_answers", int(release["n"]))
     of = cascade_table.subject(study(state.cascade()))
     loop = next(each for each in LOOPS if each in release)

@@ -10,7 +10,7 @@ function cascadePanels(setup, scale) {
   let y_range = [-1, 2], u_range = [-1, 2]; // of the last sound cascade: growing curves leave the panel
   const output = timePanel({
     key: "y", title: "Outputs y1, y2", short: "y1, y2", aids: 3, names: ["y2", "y1"],
-    legend: [{ text: "y1", color: Y }, { text: "y2", color: INNER, dash: true }, { text: `r, then d1 at ${atD1}, d2 at ${atD2}`, color: D, dash: true }],
+    legend: [{ text: "y1", color: Y }, { text: "y2", color: INNER, dash: true }, { text: `d1 at ${atD1}, d2 at ${atD2}`, color: D, dash: true }],
     y: { label: "y1, y2", limits: (p) => (p.note ? round(...y_range) : round(...(y_range = extent(p, window, [0, 1.05])))) },
     styles: [{ color: R, dash: [5, 4], width: 1.5 }, ...starts.map(() => ({ color: D, dash: [2, 3], width: 1.2 })), { color: INNER, dash: INNER_DASH, width: 1.8 }, { color: Y, width: 2.2 }],
   }, end, scale);

@@ -1,7 +1,7 @@
 """Rows of a table over the speed of one loop of a cascade, while the other one is held. Pure: no streamlit.
 
 The outer design follows the inner one as the method says. Where the cascade is not sound there are no rows; neither
-does a stencil reach across a speed at which a rule changes branch (simc's tau_I, the order of the lags in the half rule).
+does a stencil reach across a speed at which a rule changes branch: tau_I of SIMC, the order of lags in the half rule.
 """
 
 import math

@@ -1,5 +1,6 @@
 """What runs in the browser, registered once: the instruments, and the messages that reach them on the same page."""
 
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import streamlit as st
@@ -23,3 +24,15 @@ cascade = _instrument("cascade", "loops.js", "cascade_panels.js", "cascade.js", 
 message = st.components.v2.component(
     "simc_live_message", html="<span></span>", js=_text("table.js", "letters.js", "message.js")
 )
+
+
+def answer_if_unheard(asked, answers: int, take: Callable[[Mapping], None]) -> None:
+    """Take a release that no callback heard, and run again.
+
+    So it is with the first thing a page does after its server was started anew: the new session does not know the
+    component yet. answers: the last release that was taken.
+    """
+    release = asked.release
+    if release and int(release["n"]) != answers:
+        take(release)
+        st.rerun()

@@ -2,13 +2,13 @@
 
 function mount(name, make) {
   const live = new Map(); // element of the page -> its instrument
-  return ({ parentElement, data, setStateValue }) => {
+  return ({ parentElement, data, setTriggerValue }) => {
     let one = live.get(parentElement);
     if (!one) {
       one = make(parentElement.querySelector(".live"));
       live.set(parentElement, one);
     }
-    one.send = (what) => setStateValue("release", what);
+    one.send = (what) => setTriggerValue("release", what);
     one.take(unpack(data));
     const box = letters(name);
     box.open = (message) => one.take(message);
