@@ -26,6 +26,11 @@ def handle(page: Page, loop: str):
     return live(page).get_by_role("slider", name=f"of the {loop} loop")
 
 
+def row(page: Page, loop: str):
+    """Slider, its value and its settings."""
+    return live(page).locator(".top", has=page.get_by_role("slider", name=f"of the {loop} loop"))
+
+
 def value(page: Page, loop: str) -> float:
     return float(handle(page, loop).get_attribute("aria-valuenow"))
 
@@ -36,7 +41,7 @@ def figure(page: Page, name: str) -> float:
 
 def drag(page: Page, loop: str, start: float, end: float) -> set[str]:
     """Along the track, without letting go; what was drawn on the way."""
-    box = page.locator(".top", has=handle(page, loop)).locator(".track").bounding_box()
+    box = row(page, loop).locator(".track").bounding_box()
     y, seen = box["y"] + 13, set()
     page.mouse.move(box["x"] + start * box["width"], y)
     page.mouse.down()
@@ -124,7 +129,7 @@ def test_keys_home_end_and_a_range_that_is_not_stable(server, open_page):
     page = opened(open_page, server, PAIR_6)
     idle(page)
     inner = handle(page, "inner")
-    assert page.locator(".top", has=inner).locator(".hatch").count() >= 1
+    assert row(page, "inner").locator(".hatch").count() >= 1
     inner.press("Home")
     assert value(page, "inner") == pytest.approx(float(inner.get_attribute("aria-valuemin")))
     expect(page.locator("[data-figure=GM] b")).to_have_text("–")
@@ -139,7 +144,7 @@ def test_keys_home_end_and_a_range_that_is_not_stable(server, open_page):
 
 def test_touch_moves_a_slider(server, open_page):
     page = opened(open_page, server, width=390, touch=True)
-    track = page.locator(".top", has=handle(page, "outer")).locator(".track")
+    track = row(page, "outer").locator(".track")
     track.scroll_into_view_if_needed()
     box, before = track.bounding_box(), value(page, "outer")
     page.touchscreen.tap(box["x"] + box["width"] * 0.85, box["y"] + 13)

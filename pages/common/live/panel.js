@@ -72,7 +72,7 @@ class Panel {
     return this.spec.square ? square(u, x, y) : { x, y };
   }
 
-  /** curves in the order of the styles, marks [{x, y, color, label, cross, align}], note: a warning across the panel. */
+  /** curves in the order of the styles, marks [{x, y, color, label, cross, align, below}], note: a warning across the panel. */
   show(curves, marks = [], note = "") {
     this.curves = curves;
     this.marks = marks;
@@ -120,7 +120,7 @@ class Panel {
     const ratio = devicePixelRatio * this.scale;
     ctx.save();
     ctx.font = `${11 * ratio}px ${theme.font}`;
-    for (const { x, y, color, label, cross, align } of this.marks) {
+    for (const { x, y, color, label, cross, align, below } of this.marks) {
       const a = u.valToPos(x, "x", true), b = u.valToPos(y, "y", true);
       const inside = a >= bbox.left && a <= bbox.left + bbox.width && b >= bbox.top && b <= bbox.top + bbox.height;
       if (!inside) continue;
@@ -142,7 +142,7 @@ class Panel {
       const right = align === "right" || (!align && a + ctx.measureText(label).width + 8 * ratio > bbox.left + bbox.width);
       ctx.fillStyle = theme.text;
       ctx.textAlign = right ? "right" : "left";
-      ctx.fillText(label, a + (right ? -6 : 6) * ratio, Math.max(b - 5 * ratio, bbox.top + 10 * ratio));
+      ctx.fillText(label, a + (right ? -6 : 6) * ratio, below ? Math.min(b + 15 * ratio, bbox.top + bbox.height - 2 * ratio) : Math.max(b - 5 * ratio, bbox.top + 10 * ratio));
     }
     if (this.note) {
       ctx.font = `600 ${13 * ratio}px ${theme.font}`;
@@ -193,7 +193,7 @@ function axis(side, { label, log }, theme, scale) {
     grid: { stroke: theme.grid, width: 1, ...(log && { filter: (u, ticks) => ticks.map((v) => (v !== null && isDecade(v, u.scales[side]) ? v : null)) }) },
     ticks: { stroke: theme.grid, width: 1, size: 4 },
     ...(log
-      ? { values: (u, ticks) => ticks.map((v) => (v === null || !isDecade(v, u.scales[side]) ? "" : text(v))) }
+      ? { filter: (u, ticks) => ticks, values: (u, ticks) => ticks.map((v) => (v === null || !isDecade(v, u.scales[side]) ? "" : text(v))) }
       : { incrs: STEPS, space: (side === "x" ? 50 : 28) * scale, values: (u, ticks) => ticks.map((v) => text(v)) }),
   };
 }

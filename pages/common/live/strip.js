@@ -1,6 +1,6 @@
 // The strip of figures that decide: peaks Ms first and largest, their band in words and colour.
 
-const BANDS = [[1.6, "calm", "calm: robust (≤ 1.6)"], [2, "attention", "attention: little to spare (≤ 2.0)"], [Infinity, "alarm", "alarm: too close to −1 (> 2.0)"]];
+const BANDS = [[1.6, "calm", "calm: robust (≤ 1.6)"], [2, "attention", "attention: little to spare (≤ 2.0)"], [Infinity, "alarm", "alarm: too close to −1 (> 2.0)"]];
 
 /** cells: [name, words, peak]; peak: it is an Ms, shown with its band.   why: in words, why there are no numbers. */
 function strip(element, cells, metrics, exact, why) {

@@ -44,7 +44,7 @@ function svgPanel(panel, left, top, head, id) {
 }
 
 /** Title and legend above a panel. */
-function svgHead({ spec, scale, readout }, left, head) {
+function svgHead({ spec, scale }, left, head) {
   const out = [svgText(left, head, spec.title, { weight: 600, size: 12 * scale })];
   let x = left + (spec.title.length * 6.6 + 14) * scale;
   for (const { text: words, color, dash } of spec.legend ?? []) {
@@ -58,12 +58,12 @@ function svgHead({ spec, scale, readout }, left, head) {
 function svgMarks(panel, width, height, size) {
   const { chart: u, scale, theme } = panel;
   const out = [];
-  for (const { x, y, color, label, cross, align } of panel.marks) {
+  for (const { x, y, color, label, cross, align, below } of panel.marks) {
     const a = u.valToPos(x, "x"), b = u.valToPos(y, "y"), r = 5 * scale;
     if (!(a >= 0 && a <= width && b >= 0 && b <= height)) continue;
     if (cross) out.push(`<path d="M${place(a - r)} ${place(b)}h${2 * r}M${place(a)} ${place(b - r)}v${2 * r}" stroke="${color}" stroke-width="${2 * scale}"/>`);
     else if (color) out.push(`<circle cx="${place(a)}" cy="${place(b)}" r="${4.5 * scale}" fill="${color}"/>`);
-    if (label) out.push(svgText(a + (align === "right" ? -6 : 6) * scale, Math.max(b - 5 * scale, size), label, { anchor: align === "right" ? "end" : "start", size }));
+    if (label) out.push(svgText(a + (align === "right" ? -6 : 6) * scale, below ? Math.min(b + 15 * scale, height - 2) : Math.max(b - 5 * scale, size), label, { anchor: align === "right" ? "end" : "start", size }));
   }
   if (panel.note) out.push(svgText(width / 2, 18 * scale, panel.note, { anchor: "middle", weight: 600, size: 13 * scale, color: ALARM }));
   return out.join("");

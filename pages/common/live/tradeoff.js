@@ -8,10 +8,13 @@ const TRADE_OFFS = [
   ["gain", "Gain margin", true, [["GM", "GM", Y]]],
   ["phase", "Phase margin [°]", false, [["PM_deg", "PM", Y]]],
   ["delay", "Delay margin [time]", true, [["delay_margin", "DM", Y]]],
-  ["iae", "IAE", true, [["IAE_setpoint", "r step", Y], ["IAE_load", "d step", U]]],
-  ["tv", "TV of u", true, [["TV_setpoint", "r step", Y], ["TV_load", "d step", U]]],
+  ["iae", "IAE", true, [["IAE_setpoint", "r", Y], ["IAE_load", "d", U]]],
+  ["tv", "TV of u", true, [["TV_setpoint", "r", Y], ["TV_load", "d", U]]],
   ["overshoot", "Overshoot, noise", false, [["overshoot", "overshoot", Y], ["noise_gain", "max |KS|", U]]],
 ];
+
+/** One curve needs no legend; long names stand beside the points instead. */
+const named = (curves) => curves.length === 1 || curves.some(([, words]) => words.length > 8);
 
 function tradeOffPanels(table, scale) {
   const { unit, symbol } = table;
@@ -30,7 +33,7 @@ function tradeOffPanels(table, scale) {
     };
     return new Panel({
       key, title, x, y: { label: "", log, limits },
-      legend: curves.map(([, words, color], i) => ({ text: words, color, dash: i > 0 })),
+      legend: named(curves) ? [] : curves.map(([, words, color], i) => ({ text: words, color, dash: i > 0 })),
       styles: curves.map(([, , color], i) => ({ color, width: 2.2, dash: i ? [8, 4] : undefined })),
       bands: () => [...bands.map(([from, to]) => ({ axis: "y", from, to, color: CALM_BAND })), ...stability()],
       tell: (panel, at) => {
@@ -40,7 +43,7 @@ function tradeOffPanels(table, scale) {
     }, scale);
   });
   const price = new Panel({
-    key: "price", title: "Speed against robustness", legend: [{ text: "IAE load over Ms", color: Y }],
+    key: "price", title: "Speed, robustness",
     x: { label: "Ms", limits: () => [1, 3] },
     y: { label: "IAE load", log: true, limits: () => { const v = known(column("IAE_load")); return v.length ? [0.8 * Math.min(...v), 1.25 * Math.max(...v)] : [0.1, 10]; } },
     styles: [{ color: Y, width: 2.2 }], bands: () => [{ axis: "x", from: 1.4, to: 1.7, color: CALM_BAND }],
@@ -57,7 +60,8 @@ function tradeOffPanels(table, scale) {
       const at = tau_c / unit;
       list.forEach((panel, p) => {
         const curves = TRADE_OFFS[p][3];
-        const marks = curves.map(([name, , color]) => ({ x: at, y: metrics[name], color, label: text(metrics[name], 3) }));
+        const lowest = Math.min(...curves.map(([name]) => metrics[name]));
+        const marks = curves.map(([name, words, color]) => ({ x: at, y: metrics[name], color, label: `${curves.length > 1 && named(curves) ? `${words} ` : ""}${text(metrics[name], 3)}`, below: curves.length > 1 && metrics[name] === lowest }));
         panel.show(curves.map(([name]) => ({ x: ratios, y: column(name) })), marks);
       });
       const pins = table.pins.map((pin, i) => ({ x: pin.metrics.Ms, y: pin.metrics.IAE_load, color: SHADES[U][i], label: LETTERS[i] }));
