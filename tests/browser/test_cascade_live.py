@@ -137,6 +137,7 @@ def test_keys_home_end_and_a_range_that_is_not_stable(server, open_page):
     at_rest(page)
     for name in ("Ms_outer", "Ms_inner", "GM", "IAE_d1"):
         expect(page.locator(f"[data-figure={name}] b")).to_have_text("–")
+    assert row(page, "inner").locator(".hatch").count() >= 1
     picture(page, "cascade-live-unstable")
     inner.press("End")
     assert value(page, "inner") == pytest.approx(float(inner.get_attribute("aria-valuemax")))

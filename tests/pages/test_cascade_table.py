@@ -90,6 +90,7 @@ def test_a_cascade_that_is_not_sound_has_no_numbers():
     cascade = replace(cascade_of(6), tau_c_inner=0.21, tau_c_outer=4.0)
     found, of, on = made(cascade)
     assert not found.sound
+    assert cascade_table.bench(found, shown=50.0).t[-1] == 50.0  # what grows does not change the axis
     header, _ = unpacked(cascade_table.exact(of, on, found, 0))
     assert set(header["metrics"].values()) == {None}
 

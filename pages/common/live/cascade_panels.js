@@ -7,16 +7,23 @@ function cascadePanels(setup, scale) {
   const { t, omega, starts } = setup;
   const end = t.at(-1), window = [0, end];
   const [atD1, atD2] = starts.map((start) => text(start, 3));
-  let y_range = [-1, 2], u_range = [-1, 2]; // of the last sound cascade: growing curves leave the panel
+  /** Limits of y as long as the cascade is sound, and after that those it had last: growing curves leave the panel. */
+  const keeping = (always) => {
+    let range = [-1, 2];
+    return (panel) => {
+      if (!panel.note && panel.curves.at(-1).y.length) range = extent(panel, window, always);
+      return round(...range);
+    };
+  };
   const output = timePanel({
     key: "y", title: "Outputs y1, y2", short: "y1, y2", aids: 3, names: ["y2", "y1"],
     legend: [{ text: "y1", color: Y }, { text: "y2", color: INNER, dash: true }, { text: `d1 at ${atD1}, d2 at ${atD2}`, color: D, dash: true }],
-    y: { label: "y1, y2", limits: (p) => (p.note ? round(...y_range) : round(...(y_range = extent(p, window, [0, 1.05])))) },
+    y: { label: "y1, y2", limits: keeping([0, 1.05]) },
     styles: [{ color: R, dash: [5, 4], width: 1.5 }, ...starts.map(() => ({ color: D, dash: [2, 3], width: 1.2 })), { color: INNER, dash: INNER_DASH, width: 1.8 }, { color: Y, width: 2.2 }],
   }, end, scale);
   const input = timePanel({
     key: "u", title: "Input u", short: "u", aids: 2, names: ["u"], legend: [{ text: "u", color: U }],
-    y: { label: "u", limits: (p) => (p.note ? round(...u_range) : round(...(u_range = extent(p, window, [0, 0])))) },
+    y: { label: "u", limits: keeping([0, 0]) },
     styles: [...starts.map(() => ({ color: D, dash: [2, 3], width: 1.2 })), { color: U, width: 2.2 }],
   }, end, scale);
   const nyquist = nyquistPanel({

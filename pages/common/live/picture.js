@@ -47,6 +47,6 @@ function saveSvg(live) {
 function download(live, href, kind) {
   const link = document.createElement("a");
   link.href = href;
-  link.download = `simc-${live.title()}.${kind}`.replace(/[^\w.=-]+/g, "-");
+  link.download = `simc-${live.title().replace("τc", "tau_c")}.${kind}`.replace(/[^\w.]+/g, "-");
   link.click();
 }

@@ -10,11 +10,10 @@ const TRADE_OFFS = [
   ["delay", "Delay margin [time]", true, [["delay_margin", "DM", Y]]],
   ["iae", "IAE", true, [["IAE_setpoint", "r", Y], ["IAE_load", "d", U]]],
   ["tv", "TV of u", true, [["TV_setpoint", "r", Y], ["TV_load", "d", U]]],
-  ["overshoot", "Overshoot, noise", false, [["overshoot", "overshoot", Y], ["noise_gain", "max |KS|", U]]],
+  ["overshoot", "Overshoot, noise", false, [["overshoot", "y", Y], ["noise_gain", "|KS|", U]]],
 ];
 
-/** One curve needs no legend; long names stand beside the points instead. */
-const named = (curves) => curves.length === 1 || curves.some(([, words]) => words.length > 8);
+const DIRECT = "overshoot"; // no room for a legend beside its title: names stand at the points
 
 function tradeOffPanels(table, scale) {
   const { unit, symbol } = table;
@@ -33,7 +32,7 @@ function tradeOffPanels(table, scale) {
     };
     return new Panel({
       key, title, x, y: { label: "", log, limits },
-      legend: named(curves) ? [] : curves.map(([, words, color], i) => ({ text: words, color, dash: i > 0 })),
+      legend: curves.length === 1 || key === DIRECT ? [] : curves.map(([, words, color], i) => ({ text: words, color, dash: i > 0 })),
       styles: curves.map(([, , color], i) => ({ color, width: 2.2, dash: i ? [8, 4] : undefined })),
       bands: () => [...bands.map(([from, to]) => ({ axis: "y", from, to, color: CALM_BAND })), ...stability()],
       tell: (panel, at) => {
@@ -59,9 +58,10 @@ function tradeOffPanels(table, scale) {
     draw({ tau_c, metrics }) {
       const at = tau_c / unit;
       list.forEach((panel, p) => {
-        const curves = TRADE_OFFS[p][3];
+        const [key, , , curves] = TRADE_OFFS[p];
         const lowest = Math.min(...curves.map(([name]) => metrics[name]));
-        const marks = curves.map(([name, words, color]) => ({ x: at, y: metrics[name], color, label: `${curves.length > 1 && named(curves) ? `${words} ` : ""}${text(metrics[name], 3)}`, below: curves.length > 1 && metrics[name] === lowest }));
+        const marks = curves.map(([name, words, color]) => ({ x: at, y: metrics[name], color,
+          label: `${key === DIRECT ? `${words} ` : ""}${text(metrics[name], 3)}`, below: curves.length > 1 && key !== DIRECT && metrics[name] === lowest }));
         panel.show(curves.map(([name]) => ({ x: ratios, y: column(name) })), marks);
       });
       const pins = table.pins.map((pin, i) => ({ x: pin.metrics.Ms, y: pin.metrics.IAE_load, color: SHADES[U][i], label: LETTERS[i] }));
