@@ -58,21 +58,22 @@ def main() -> None:
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=ARGS)
         page = browser.new_page(viewport={"width": 1280, "height": 900})
-        result = {"bare slider": bare(page), "live": live(page)}
+        result = {"bare slider": bare(page), "live": live(page, f"tuning?plant={PLANT}")}
+        result["live cascade"] = live(page, "cascade")
         browser.close()
     result["sessions"] = {str(n): asyncio.run(sessions(n)) for n in SESSIONS}
     show(result)
     print(json.dumps(result))
 
 
-def live(page: Page) -> dict[str, float]:
-    """Key presses and a drag on the instrument of the tuning page."""
+def live(page: Page, path: str) -> dict[str, float]:
+    """Key presses and a drag on the (last) slider of the instrument of a page."""
     server = Server()
-    page.goto(f"{server.url}/tuning?plant={PLANT}")
+    page.goto(f"{server.url}/{path}")
     element = page.wait_for_selector(".live[data-exact=true]")
     idle(page)
-    found = presses(page, page.locator(".handle"), [element, None])
-    box = page.locator(".track").bounding_box()
+    found = presses(page, page.locator(".handle").last, [element, None])
+    box = page.locator(".track").last.bounding_box()
     y = box["y"] + 12
     page.mouse.move(box["x"] + 0.3 * box["width"], y)
     page.mouse.down()
@@ -186,10 +187,11 @@ def show(result: dict) -> None:
     """The table."""
     base = result["bare slider"]["median ms"]
     print("key press to paint        median ms   p95 ms   ratio to the bare slider")
-    for name in ("bare slider", "live"):
+    for name in ("bare slider", "live", "live cascade"):
         row = result[name]
         print(f"{name:24} {row['median ms']:10.1f} {row['p95 ms']:8.1f} {row['median ms'] / base:10.2f}")
-    print(f"\nredraws per second while dragging, four panels: {result['live']['redraws per second']:.0f}")
+    redraws = [f"{result[name]['redraws per second']:.0f} ({name})" for name in ("live", "live cascade")]
+    print(f"\nredraws per second while dragging, four panels: {', '.join(redraws)}")
     first = result["sessions"]["1"]["p95 ms"]
     print("\nsessions   release: median ms   p95 ms   ratio of p95   MB per session")
     for n, row in result["sessions"].items():

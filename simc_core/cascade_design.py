@@ -33,7 +33,7 @@ LOWEST_MS, HIGHEST_MS = 1.05, 10.0
 class CascadeDesign:
     """A cascade and how it came about. tau_c of SIMC, lambda of the direct synthesis; None for the other method.
 
-    notes: what the designer should know, in words.
+    models: of SIMC, the reduced models of Gb and of the outer plant.   notes: what the designer should know, in words.
     """
 
     loop: CascadeLoop
@@ -43,6 +43,7 @@ class CascadeDesign:
     tau_c_outer: float | None = None
     lambda_inner: float | None = None
     lambda_outer: float | None = None
+    models: tuple[Model, Model] | None = None
     notes: tuple[str, ...] = ()
 
     @property
@@ -85,7 +86,7 @@ def simc_cascade(
             f"got {tau_ca:.4g}: slow the outer loop down, or speed the inner one up"
         )
     loop = CascadeLoop(primary, secondary, Ca, Cb)
-    return CascadeDesign(loop, Cb, Ca, tau_cb, tau_ca, notes=(*notes, *_on_inner(loop)))
+    return CascadeDesign(loop, Cb, Ca, tau_cb, tau_ca, models=(model, reduced), notes=(*notes, *_on_inner(loop)))
 
 
 def synthesis_cascade(

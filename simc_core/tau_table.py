@@ -78,15 +78,17 @@ def read(rows: Rows, curves: np.ndarray, x: float) -> np.ndarray:
     return weights @ curves[first : first + len(weights)]
 
 
-def refined(rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: float = TOLERANCE) -> tuple[Rows, Curves]:
+def refined(
+    rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: float = TOLERANCE, most: int = MOST_ROWS
+) -> tuple[Rows, Curves]:
     """Rows between which every curve is read to `tolerance` of its range, as checked at all midpoints, and the curves.
 
     compute: from tau_c, shape (m,), to the curves there. An interval that fails is halved, and its neighbours, which
-    share its stencil, are looked at again. At MOST_ROWS it ends.
+    share its stencil, are looked at again. At `most` rows it ends.
     """
     values = compute(rows.tau_c)
     suspects = np.arange(len(rows.x) - 1)
-    while len(suspects) and len(rows.x) < MOST_ROWS:
+    while len(suspects) and len(rows.x) < most:
         middle = (rows.x[suspects] + rows.x[suspects + 1]) / 2
         exact = compute(np.exp(middle))
         wrong = np.array(

@@ -1,13 +1,14 @@
 """The instrument: it follows the hand without asking the server, and exact numbers replace the read ones on release."""
 
 import re
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
 from simc_core.tau_table import first_rows, stencil
-from tests.browser.tools import ROOT, idle, picture
+from tests.browser.tools import PATIENCE, ROOT, Server, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"  # [V06] example 1
 UNSTABLE = "exp(-0.2s)/((5s%2B1)(4s%2B1))&order=2&filter=3"  # a slow filter: unstable for small tau_c
@@ -171,19 +172,72 @@ def test_the_theme_changes_the_colours_of_the_axes(server, open_page):
     picture(page, "live-theme-changed")
 
 
-def test_a_lost_connection_comes_back_with_the_same_state(server, open_page):
-    page = opened(open_page, server)
+def test_a_lost_connection_comes_back_with_the_same_state(chromium):
+    """The server dies under the open page and another one takes its port: no reload by the user, the same tau_c."""
+    first = Server()
+    page = chromium.new_context().new_page()  # not watched: a dead server is an error in the browser's console
+    page.set_default_timeout(1000 * PATIENCE)
+    page.goto(f"{first.url}/tuning?plant={EXAMPLE}")
+    idle(page)
     handle(page).press("PageUp")
     at_rest(page)
     idle(page)
     chosen = tau_c(page)
-    page.context.set_offline(True)
+    first.stop()
     page.wait_for_timeout(500)
-    page.context.set_offline(False)
-    page.reload()
-    idle(page)
-    at_rest(page)
-    assert tau_c(page) == pytest.approx(chosen)
+    second = Server(port=first.port)
+    try:
+        page.wait_for_selector("[data-testid=stApp][data-test-connection-state=CONNECTED]")
+        assert tau_c(page) == pytest.approx(chosen)
+        handle(page).press("PageUp")  # the first thing the new server hears of this page
+        expect(live(page)).to_have_attribute("data-exact", "false")
+        expect(live(page)).to_have_attribute("data-exact", "true", timeout=1000 * PATIENCE)
+        assert tau_c(page) == pytest.approx(2 * chosen, rel=1e-3)
+    finally:
+        page.context.close()
+        second.stop()
+
+
+def test_a_zoom_shows_how_to_leave_it(server, open_page):
+    page = opened(open_page, server)
+    figure = page.locator("figure[data-panel=y]")
+    whole = figure.get_by_role("button", name="whole")
+    expect(whole).to_be_hidden()
+    box = figure.locator(".u-over").bounding_box()
+    page.mouse.move(box["x"] + 0.2 * box["width"], box["y"] + 0.2 * box["height"])
+    expect(figure.locator("output")).to_contain_text("y =")
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.6 * box["width"], box["y"] + 0.7 * box["height"], steps=4)
+    page.mouse.up()
+    expect(whole).to_be_visible()
+    picture(page, "live-zoom")
+    whole.click()
+    expect(whole).to_be_hidden()
+
+
+def test_panels_as_svg_hold_every_curve_and_the_words_on_the_axes(server, open_page):
+    page = opened(open_page, server)
+    with page.expect_download() as download:
+        page.get_by_role("button", name="SVG").click()
+    assert download.value.suggested_filename.endswith(".svg")
+    tree = ElementTree.parse(download.value.path())
+    SVG = "{http://www.w3.org/2000/svg}"
+    words = {text.text for text in tree.iter(f"{SVG}text")}
+    assert {
+        "Output y",
+        "Input u",
+        "|S| and |T|",
+        "Re L",
+        "Im L",
+        "t  [time unit]",
+        "ω  [rad/time unit]",
+        "0.1",
+    } <= words
+    curves = [path for path in tree.iter(f"{SVG}path") if path.get("class") == "curve"]
+    assert len(curves) == 3 + 1 + 7 + 3  # r, load, y; u; two axes, three circles, that of Ms, L; 1, |T|, |S|
+    assert all(path.get("d").startswith("M") for path in curves)
+    words = [group.get("aria-label") for group in tree.iter(f"{SVG}g") if group.get("role") == "img"]
+    assert words[0].startswith("Output y. tau_c 7: Ms 1.62")
 
 
 def test_the_browser_reads_the_table_as_python_does(server, open_page):

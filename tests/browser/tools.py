@@ -31,12 +31,14 @@ PATIENCE = 30  # seconds for a server to start on a busy machine
 
 
 class Server:
-    """A fresh `streamlit run` of a script, app.py unless told otherwise, on a free port of 127.0.0.1."""
+    """A fresh `streamlit run` of a script, app.py unless told otherwise, on a port of 127.0.0.1, a free one if None."""
 
-    def __init__(self, script: Path = ROOT / "app.py"):
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
+    def __init__(self, script: Path = ROOT / "app.py", port: int | None = None):
+        if port is None:
+            with socket.socket() as free:
+                free.bind(("127.0.0.1", 0))
+                port = free.getsockname()[1]
+        self.port = port
         self.url = f"http://127.0.0.1:{port}"
         command = [sys.executable, "-m", "streamlit", "run", str(script)]
         options = [f"--server.port={port}", "--server.address=127.0.0.1", "--server.fileWatcherType=none"]

@@ -1,37 +1,28 @@
-"""The live instrument: slider, figures and panels in the browser, exact numbers from here.
+"""The live instruments: sliders, figures and panels in the browser, exact numbers from here.
 
-While tau_c moves, the browser reads the table it holds (table.py, table.js) and asks nobody. On release the design
-changes, the script runs, and what it sends back replaces the numbers that were read between rows. Table and exact
-numbers travel apart: an unchanged table is a reference of a few bytes to what the browser has in its cache.
-uPlot draws (uplot.LICENSE); measured against plotly.js and a canvas of our own, see benchmarks/ui.py.
+While a slider moves, the browser reads the table it holds (table.py, cascade_table.py, table.js) and asks nobody. On
+release the design changes, the script runs, and what it sends back replaces the numbers that were read between rows.
+Tables and exact numbers travel apart: an unchanged table is a reference of a few bytes to what the browser has in its
+cache. uPlot draws (uplot.LICENSE); measured against plotly.js and a canvas of our own, see benchmarks/ui.py.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import streamlit as st
 
 from pages.common import state
-from pages.common.live import table
+from pages.common.live import components, table
+from pages.common.live.cascade_instrument import cascade_instrument
 from pages.common.study import Study
 from simc_core.errors import InvalidParameter
 from simc_core.margins import margins
 from simc_core.plant import Plant
 from simc_core.tau_table import smallest
 
-HERE = Path(__file__).parent
-SCRIPTS = ("uplot.min.js", "table.js", "panel.js", "slider.js", "panels.js", "live.js")
+__all__ = ["cascade_instrument", "instrument"]
+
 KEY = "live"
-
-
-def _text(*names: str) -> str:
-    return "\n".join((HERE / name).read_text(encoding="utf-8") for name in names)
-
-
-_instrument = st.components.v2.component(
-    "simc_live", html=_text("live.html"), css=_text("uplot.min.css", "live.css"), js=_text(*SCRIPTS)
-)
-_exact = st.components.v2.component("simc_live_exact", html="<span></span>", js=_text("exact.js"))
 
 
 def instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
@@ -44,9 +35,10 @@ def instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     if kept.name != name:  # a release must not make the table again
         kept = _Kept(of, float(on.t[-1]), name, table.table(of, on, pins, name))
         state.remember("live_table", kept)
-    _instrument(key=KEY, data=kept.message, on_release_change=_released)
+    asked = components.tuning(key=KEY, data=kept.message, on_release_change=_released)
+    components.answer_if_unheard(asked, state.memory("live_answers", int), _take)
     refusal, answers = state.memory("live_refusal", str), state.memory("live_answers", int)
-    _exact(key=f"{KEY}_exact", data=table.exact(of, on, present, name, answers))
+    components.message(key=f"{KEY}_exact", data=table.exact(of, on, present, name, answers))
     if refusal:
         st.warning(refusal)
 
@@ -62,8 +54,12 @@ class _Kept:
 
 
 def _released() -> None:
-    """The hand has let go: tau_c, or the Ms that tau_c is wanted for."""
-    release = state.widget(KEY)["release"]
+    """The hand has let go."""
+    _take(state.widget(KEY)["release"])
+
+
+def _take(release: Mapping) -> None:
+    """tau_c, or the Ms that tau_c is wanted for."""
     state.remember("live_answers", int(release["n"]))
     state.remember("live_refusal", "")
     try:

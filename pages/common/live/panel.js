@@ -1,26 +1,6 @@
 // One panel: uPlot draws axes, grid, curves and cursor; every curve brings its own x, so that L(jw) is one like the rest.
 
-const STEPS = [];
-for (let e = -12; e <= 12; e++) for (const m of [1, 2, 5]) STEPS.push(Number(`${m}e${e}`));
-
-/** Four significant digits at most, no trailing zeros; infinity as the sign. */
-function text(value, digits = 4) {
-  if (value === null || value === undefined || Number.isNaN(value)) return "–";
-  if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
-  const size = Math.abs(value);
-  if (size !== 0 && (size >= 1e5 || size < 1e-3)) {
-    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
-    return `${Number(mantissa)}e${Number(exponent)}`.replace(/-/g, "−");
-  }
-  return String(Number(value.toPrecision(digits))).replace("-", "−");
-}
-
-/** Limits that hold [low, high] and end on round numbers. */
-function round(low, high) {
-  const span = high - low || Math.abs(high) || 1;
-  const step = STEPS.find((s) => span / s <= 6) ?? span;
-  return [step * Math.floor(low / step + 1e-9), step * Math.ceil(high / step - 1e-9)];
-}
+const ALARM = "#C8442E";
 
 class Panel {
   /**
@@ -36,33 +16,23 @@ class Panel {
     this.zoom = null;
     this.box = document.createElement("figure");
     this.box.dataset.panel = spec.key;
-    this.box.innerHTML = `<figcaption><b></b><span class="legend"></span><output></output>
-      <button type="button" title="One panel or all (Enter)" aria-label="Show ${spec.title} alone or all">⤢</button></figcaption>
-      <div class="plot" role="img"></div>`;
+    this.box.innerHTML = `<figcaption><b></b><span class="legend"></span><output></output></figcaption><div class="plot" role="img"></div>`;
     this.box.querySelector("b").textContent = spec.title;
     this.box.querySelector(".legend").replaceChildren(...(spec.legend ?? []).map(swatch));
     this.readout = this.box.querySelector("output");
     this.plot = this.box.querySelector(".plot");
+    this.unzoom = button("⟲ whole", "The whole curves again (double click)", () => this.reset());
+    this.unzoom.className = "unzoom";
+    this.unzoom.hidden = true;
+    this.single = button("⤢", "One panel or all");
+    this.single.setAttribute("aria-label", `Show ${spec.title} alone or all`);
+    this.box.querySelector("figcaption").append(this.unzoom, this.single);
   }
 
   build(theme) {
     const { spec, scale } = this;
+    this.theme = theme;
     this.chart?.destroy();
-    const axis = (side, log) => ({
-      scale: side,
-      stroke: theme.text,
-      font: `${Math.round(11 * scale)}px ${theme.font}`,
-      labelFont: `${Math.round(11.5 * scale)}px ${theme.font}`,
-      ...(spec[side].label && { label: spec[side].label, labelSize: 17 * scale }),
-      labelGap: 0,
-      size: (side === "x" ? 22 : 44) * scale,
-      gap: 3,
-      grid: { stroke: theme.grid, width: 1, ...(log && { filter: (u, ticks) => ticks.map((v) => (v !== null && isDecade(v, u.scales[side]) ? v : null)) }) },
-      ticks: { stroke: theme.grid, width: 1, size: 4 },
-      ...(log
-        ? { values: (u, ticks) => ticks.map((v) => (v === null || !isDecade(v, u.scales[side]) ? "" : text(v))) }
-        : { incrs: STEPS, space: (side === "x" ? 50 : 28) * scale, values: (u, ticks) => ticks.map((v) => text(v)) }),
-    });
     const options = {
       width: Math.max(60, this.plot.clientWidth),
       height: Math.max(60, this.plot.clientHeight),
@@ -72,7 +42,7 @@ class Panel {
         x: { time: false, distr: spec.x.log ? 3 : 1, range: (u) => this.limits(u).x },
         y: { distr: spec.y.log ? 3 : 1, range: (u) => this.limits(u).y },
       },
-      axes: [axis("x", spec.x.log), axis("y", spec.y.log)],
+      axes: ["x", "y"].map((side) => axis(side, spec[side], theme, scale)),
       cursor: { points: { show: false }, drag: { x: true, y: true, uni: 8, setScale: false }, bind: { dblclick: () => () => this.reset() } },
       series: [
         {},
@@ -82,12 +52,12 @@ class Panel {
           dash: style.dash?.map((d) => d * scale),
           alpha: style.alpha ?? 1,
           points: { show: false },
-          paths: (u) => ({ stroke: this.path(u, this.curves[i]) }),
+          paths: (u) => ({ stroke: trace(u, this.curves[i], new Path2D(), true) }),
         })),
       ],
       hooks: {
         drawClear: [(u) => this.under(u)],
-        draw: [(u) => this.over(u, theme)],
+        draw: [(u) => this.over(u)],
         setSelect: [(u) => this.select(u)],
         setCursor: [(u) => this.point(u)],
       },
@@ -102,7 +72,7 @@ class Panel {
     return this.spec.square ? square(u, x, y) : { x, y };
   }
 
-  /** curves in the order of the styles, marks [{x, y, color, label}]; alt: the numbers in words. */
+  /** curves in the order of the styles, marks [{x, y, color, label, cross, align, below}], note: a warning across the panel. */
   show(curves, marks = [], note = "") {
     this.curves = curves;
     this.marks = marks;
@@ -111,6 +81,7 @@ class Panel {
   }
 
   redraw() {
+    this.unzoom.hidden = !this.zoom;
     if (this.chart && this.plot.clientWidth) this.chart.setData(this.chart.data, true);
   }
 
@@ -120,44 +91,36 @@ class Panel {
       this.chart.setSize({ width, height });
   }
 
-  path(u, { x, y }) {
-    const path = new Path2D();
-    let down = false;
-    for (let i = 0; i < x.length; i++) {
-      const a = u.valToPos(x[i], "x", true), b = u.valToPos(y[i], "y", true);
-      if (!Number.isFinite(a) || !Number.isFinite(b)) {
-        down = false;
-        continue;
-      }
-      const c = Math.max(-1e5, Math.min(1e5, b));
-      if (down) path.lineTo(a, c);
-      else path.moveTo(a, c);
-      down = true;
-    }
-    return path;
+  /** Coloured ranges behind the curves: [x, y, width, height, colour] in pixels of the canvas, or of the page. */
+  shades(u, canvas) {
+    const from = canvas ? u.bbox : { left: 0, top: 0, width: u.over.clientWidth, height: u.over.clientHeight };
+    return (this.spec.bands?.(this) ?? []).map(({ axis: side, from: low, to: high, color }) => {
+      const [a, b] = [low, high].map((v) => u.valToPos(v, side, canvas));
+      const [at, span] = [Math.min(a, b), Math.abs(b - a)];
+      return side === "y" ? [from.left, at, from.width, span, color] : [at, from.top, span, from.height, color];
+    });
   }
 
   under(u) {
     const { left, top, width, height } = u.bbox;
-    for (const { axis, from, to, color } of this.spec.bands?.(this) ?? []) {
-      const [a, b] = [from, to].map((v) => u.valToPos(v, axis, true));
-      u.ctx.save();
-      u.ctx.beginPath();
-      u.ctx.rect(left, top, width, height);
-      u.ctx.clip();
+    u.ctx.save();
+    u.ctx.beginPath();
+    u.ctx.rect(left, top, width, height);
+    u.ctx.clip();
+    for (const [x, y, w, h, color] of this.shades(u, true)) {
       u.ctx.fillStyle = color;
-      if (axis === "y") u.ctx.fillRect(left, Math.min(a, b), width, Math.abs(b - a));
-      else u.ctx.fillRect(Math.min(a, b), top, Math.abs(b - a), height);
-      u.ctx.restore();
+      u.ctx.fillRect(x, y, w, h);
     }
+    u.ctx.restore();
   }
 
-  over(u, theme) {
+  over(u) {
     const { ctx, bbox } = u;
+    const { theme } = this;
     const ratio = devicePixelRatio * this.scale;
     ctx.save();
     ctx.font = `${11 * ratio}px ${theme.font}`;
-    for (const { x, y, color, label, cross, align } of this.marks) {
+    for (const { x, y, color, label, cross, align, below } of this.marks) {
       const a = u.valToPos(x, "x", true), b = u.valToPos(y, "y", true);
       const inside = a >= bbox.left && a <= bbox.left + bbox.width && b >= bbox.top && b <= bbox.top + bbox.height;
       if (!inside) continue;
@@ -176,9 +139,10 @@ class Panel {
         ctx.fill();
       }
       if (!label) continue;
+      const right = align === "right" || (!align && a + ctx.measureText(label).width + 8 * ratio > bbox.left + bbox.width);
       ctx.fillStyle = theme.text;
-      ctx.textAlign = align ?? "left";
-      ctx.fillText(label, a + (align === "right" ? -6 : 6) * ratio, b - 5 * ratio);
+      ctx.textAlign = right ? "right" : "left";
+      ctx.fillText(label, a + (right ? -6 : 6) * ratio, below ? Math.min(b + 15 * ratio, bbox.top + bbox.height - 2 * ratio) : Math.max(b - 5 * ratio, bbox.top + 10 * ratio));
     }
     if (this.note) {
       ctx.font = `600 ${13 * ratio}px ${theme.font}`;
@@ -215,18 +179,48 @@ class Panel {
   }
 }
 
+/** How uPlot is to draw one axis: round ticks; of a logarithmic one the decades. */
+function axis(side, { label, log }, theme, scale) {
+  return {
+    scale: side,
+    stroke: theme.text,
+    font: `${Math.round(11 * scale)}px ${theme.font}`,
+    labelFont: `${Math.round(11.5 * scale)}px ${theme.font}`,
+    ...(label && { label, labelSize: 17 * scale }),
+    labelGap: 0,
+    size: (side === "x" ? 22 : 44) * scale,
+    gap: 3,
+    grid: { stroke: theme.grid, width: 1, ...(log && { filter: (u, ticks) => ticks.map((v) => (v !== null && isDecade(v, u.scales[side]) ? v : null)) }) },
+    ticks: { stroke: theme.grid, width: 1, size: 4 },
+    ...(log
+      ? { filter: (u, ticks) => ticks, values: (u, ticks) => ticks.map((v) => (v === null || !isDecade(v, u.scales[side]) ? "" : text(v))) }
+      : { incrs: STEPS, space: (side === "x" ? 50 : 28) * scale, values: (u, ticks) => ticks.map((v) => text(v)) }),
+  };
+}
+
+/** The curve on a pen that knows moveTo and lineTo, in pixels of the canvas, or of the page. */
+function trace(u, { x, y }, pen, canvas) {
+  let down = false;
+  for (let i = 0; i < x.length; i++) {
+    const a = u.valToPos(x[i], "x", canvas), b = u.valToPos(y[i], "y", canvas);
+    if (!Number.isFinite(a) || !Number.isFinite(b)) {
+      down = false;
+      continue;
+    }
+    const c = Math.max(-1e5, Math.min(1e5, b));
+    if (down) pen.lineTo(a, c);
+    else pen.moveTo(a, c);
+    down = true;
+  }
+  return pen;
+}
+
 function swatch({ text: label, color, dash }) {
   const item = document.createElement("i");
   item.style.setProperty("--line", color);
   item.className = dash ? "dashed" : "";
   item.textContent = label;
   return item;
-}
-
-/** Decades carry numbers; where there is hardly one, 2 and 5 do as well. */
-function isDecade(value, { min, max }) {
-  const lead = Number(value.toExponential(3).split("e")[0]);
-  return lead === 1 || (Math.log10(max / min) < 2 && (lead === 2 || lead === 5));
 }
 
 /** One unit as long across as up: the axis with room to spare shows more. */
@@ -236,15 +230,4 @@ function square(u, x, y) {
   const unit = Math.max((x[1] - x[0]) / width, (y[1] - y[0]) / height);
   const about = ([low, high], pixels) => [(low + high - unit * pixels) / 2, (low + high + unit * pixels) / 2];
   return { x: about(x, width), y: about(y, height) };
-}
-
-/** Index of the entry of increasing `values` nearest to `wanted`. */
-function nearest(values, wanted) {
-  let low = 0, high = values.length - 1;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (values[middle] <= wanted) low = middle;
-    else high = middle;
-  }
-  return wanted - values[low] < values[high] - wanted ? low : high;
 }

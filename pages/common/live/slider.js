@@ -1,41 +1,59 @@
-// tau_c on a logarithmic track: mouse, touch, keyboard. Ranges in which the loop is not stable are hatched.
+// tau_c or lambda on a logarithmic track: mouse, touch, keyboard. Ranges without a stable loop are hatched.
 
 class Slider {
-  /** moved(tau_c): while it moves.   released(tau_c): when it comes to rest.   say(tau_c): its value in words. */
-  constructor(root, { moved, released, say }) {
-    Object.assign(this, { moved, released, say, dragging: false, timer: 0 });
-    this.track = root.querySelector(".track");
-    this.rail = root.querySelector(".rail");
-    this.scale = root.querySelector(".scale");
-    this.handle = root.querySelector("[role=slider]");
+  /**
+   * name: for the instrument; symbol: HTML; label: for those who do not see it.
+   * moved(slider): while it moves.   released(slider): when it comes to rest.
+   */
+  constructor({ name, symbol, label }, { moved, released }) {
+    Object.assign(this, { name, moved, released, dragging: false, timer: 0 });
+    this.row = document.createElement("div");
+    this.row.className = "top";
+    this.row.innerHTML = `<div class="now"><span class="symbol"></span> = <output class="value">–</output></div>
+      <div class="track"><div class="rail"></div><div class="handle" role="slider" tabindex="0" aria-orientation="horizontal"></div><div class="scale" aria-hidden="true"></div></div>
+      <div class="settings"></div>`;
+    const find = (selector) => this.row.querySelector(selector);
+    [this.value, this.track, this.rail, this.scale, this.handle, this.settings] = [".value", ".track", ".rail", ".scale", ".handle", ".settings"].map(find);
+    this.call(symbol, label);
     this.track.addEventListener("pointerdown", (event) => this.grab(event));
     this.track.addEventListener("pointermove", (event) => this.dragging && this.follow(event));
     for (const end of ["pointerup", "pointercancel"]) this.track.addEventListener(end, () => this.drop());
     this.handle.addEventListener("keydown", (event) => this.key(event));
   }
 
-  /** low, high of tau_c; unit: the length of 1 on the scale; unstable [[low, high]]; fixed: no choice of tau_c. */
-  range({ low, high, unit, symbol, unstable, fixed }) {
-    Object.assign(this, { low, high, unit, fixed });
+  /** symbol: HTML; label: for those who do not see it. */
+  call(symbol, label) {
+    this.row.querySelector(".symbol").innerHTML = symbol;
+    this.handle.setAttribute("aria-label", label);
+  }
+
+  /** low, high of tau_c; unit: the length of 1 on the scale, and its symbol; fixed: no choice of tau_c. */
+  range({ low, high, unit, symbol, fixed }) {
+    Object.assign(this, { low, high, unit, symbol, fixed });
     this.handle.setAttribute("aria-valuemin", low);
     this.handle.setAttribute("aria-valuemax", high);
     this.handle.setAttribute("aria-disabled", String(fixed));
-    this.rail.replaceChildren(
-      ...unstable.map(([from, to]) => {
-        const hatch = document.createElement("div");
-        hatch.className = "hatch";
-        hatch.title = `not stable for tau_c from ${text(from, 3)} to ${text(to, 3)}`;
-        hatch.style.left = `${100 * this.share(from)}%`;
-        hatch.style.width = `${100 * (this.share(to) - this.share(from))}%`;
-        return hatch;
-      }),
-    );
     this.scale.replaceChildren(
       ...STEPS.filter((v) => v * unit >= low * 0.999 && v * unit <= high * 1.001).map((v) => {
         const tick = document.createElement("span");
         tick.style.left = `${100 * this.share(v * unit)}%`;
+        tick.className = /^1/.test(v.toExponential()) ? "decade" : "";
         tick.textContent = `${text(v)} ${symbol}`;
         return tick;
+      }),
+    );
+  }
+
+  /** unstable: [[low, high]] of tau_c. */
+  hatch(unstable) {
+    this.rail.replaceChildren(
+      ...unstable.map(([from, to]) => {
+        const hatch = document.createElement("div");
+        hatch.className = "hatch";
+        hatch.title = `not stable from ${text(from, 3)} to ${text(to, 3)}`;
+        hatch.style.left = `${100 * this.share(from)}%`;
+        hatch.style.width = `${100 * (this.share(to) - this.share(from))}%`;
+        return hatch;
       }),
     );
   }
@@ -48,15 +66,23 @@ class Slider {
   /** Put the handle there without telling anybody. */
   place(tau_c) {
     this.tau_c = tau_c;
+    const ratio = text(tau_c / this.unit, 3);
+    this.value.textContent = `${text(tau_c)}${this.symbol ? ` = ${ratio} ${this.symbol}` : ""}`;
     this.handle.style.left = `${100 * this.share(tau_c)}%`;
     this.handle.setAttribute("aria-valuenow", tau_c);
-    this.handle.setAttribute("aria-valuetext", this.say(tau_c));
+    this.handle.setAttribute("aria-valuetext", `${text(tau_c)}${this.symbol ? `, ${ratio} times theta` : ""}`);
+  }
+
+  /** What the controller's settings are there; exact: all digits on hover. */
+  tell(settings, exact) {
+    this.settings.innerHTML = Object.entries(settings)
+      .map(([name, value]) => `<span title="${exact ? value : ""}">${SYMBOLS[name] ?? name} <b>${text(value)}</b></span>`).join("");
   }
 
   move(tau_c) {
     const ratio = Number((Math.min(this.high, Math.max(this.low, tau_c)) / this.unit).toPrecision(3));
     this.place(ratio * this.unit);
-    this.moved(this.tau_c);
+    this.moved(this);
   }
 
   grab(event) {
@@ -75,7 +101,7 @@ class Slider {
   drop() {
     if (!this.dragging) return;
     this.dragging = false;
-    this.released(this.tau_c);
+    this.released(this);
   }
 
   key(event) {
@@ -91,6 +117,8 @@ class Slider {
     event.preventDefault();
     this.move(to);
     clearTimeout(this.timer); // a key held down is one release
-    this.timer = setTimeout(() => this.released(this.tau_c), 150);
+    this.timer = setTimeout(() => this.released(this), 150);
   }
 }
+
+const SYMBOLS = { tau_I: "τI", tau_D: "τD", tau_F: "τF", K_I: "KI" };

@@ -184,6 +184,7 @@ def exact(of: Subject, on: Bench, present: Study, name: str, answers: int) -> by
     """The present design without interpolation. name: of the table it belongs to; answers: the release it answers."""
     header = {
         "kind": "exact",
+        "to": "tuning",
         "table": name,
         "tau_c": present.tau_c,
         "answers": answers,

@@ -1,0 +1,1 @@
+export default mount("cascade", (root) => new Cascade(root));

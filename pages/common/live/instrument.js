@@ -1,0 +1,185 @@
+// What every instrument does: sliders, figures and panels that follow the hand, lecture, what-if, pictures.
+// Python sends tables and, after each release, exact numbers; a subclass knows what they mean:
+//   furnished, take(message), panelSets(scale), reading(), figures(now), title(), words(now), release(slider), preset(n)
+
+const PERIOD = 8000; // ms for tau_c to go up and down once
+const PATIENCE = 3000; // ms after which an answer that did not come is not waited for any more
+
+class Instrument {
+  constructor(root, { sliders, views, figures, hint }) {
+    this.root = root;
+    this.cells = figures;
+    this.waiting = 0;
+    this.views = {};
+    const find = (selector) => root.querySelector(selector);
+    const hand = { moved: (slider) => this.moved(slider), released: (slider) => this.release(slider) };
+    this.sliders = sliders.map((each) => new Slider(each, hand));
+    this.slider = this.sliders.at(-1); // the one that was touched last
+    find(".sliders").append(...this.sliders.map((each) => each.row));
+    this.tabs = views.map(([view, words]) => Object.assign(button(words, "", () => this.look(view)), { value: view }));
+    find(".views").append(...(views.length > 1 ? this.tabs : []));
+    find(".keys").textContent = hint;
+    find(".play").onclick = () => (this.playing ? this.stop(true) : this.play());
+    find(".lecture").onclick = () => this.lecture();
+    find(".png").onclick = () => savePng(this);
+    find(".svg").onclick = () => saveSvg(this);
+    root.addEventListener("keydown", (event) => this.key(event));
+    new ResizeObserver(() => requestAnimationFrame(() => this.fit())).observe(root);
+    find(".probe").addEventListener("transitionend", () => this.rebuild()); // the theme's colours changed
+    this.look(views[0][0]);
+  }
+
+  /** Exact numbers; those of a tau_c that has been left again are not shown. Whether they were taken. */
+  confirm(exact) {
+    const expected = this.waiting && performance.now() - this.sent < PATIENCE;
+    if (expected && exact.answers !== this.waiting) return false;
+    if (this.playing || this.sliders.some((slider) => slider.dragging)) return false;
+    this.waiting = 0;
+    this.exact = exact;
+    return true;
+  }
+
+  moved(slider) {
+    this.slider = slider;
+    this.stop();
+    this.frame ??= requestAnimationFrame(() => {
+      this.frame = null;
+      this.show();
+    });
+  }
+
+  /** Tell Python; its answer carries the same number. */
+  ask(what) {
+    this.waiting = Date.now();
+    this.sent = performance.now();
+    this.send({ ...what, n: this.waiting });
+  }
+
+  show() {
+    if (!this.furnished || !this.slider.tau_c) return;
+    const now = (this.now = this.reading());
+    if (now.curves !== false) this.views[this.view]?.draw(now);
+    this.figures(now);
+    this.root.dataset.exact = now.exact;
+    this.root.dataset.drawn = this.slider.tau_c;
+    if (now.exact) this.describe(now);
+  }
+
+  /** The panels in words, for those who do not see them; only when at rest. */
+  describe(now) {
+    const words = this.words(now);
+    for (const panel of this.views[this.view].panels) panel.plot.setAttribute("aria-label", `${panel.spec.title}. ${words}`);
+    this.root.querySelector(".spoken").textContent = words;
+  }
+
+  /** Panels anew: another table, theme, or size of type. end: of the time axis; another one ends a zoom there. */
+  rebuild(end = this.end) {
+    if (!this.furnished) return;
+    const scale = this.root.matches(":popover-open") ? 1.7 : 1;
+    const style = getComputedStyle(this.root);
+    const color = style.getPropertyValue("--st-text-color").trim() || style.color;
+    this.theme = { text: color, grid: "rgba(138,144,150,0.22)", font: style.fontFamily,
+      page: style.getPropertyValue("--st-background-color").trim() || "#fff" };
+    const zooms = Object.fromEntries(Object.values(this.views).flatMap((v) => v.panels).map((p) => [p.spec.key, p.zoom]));
+    this.views = this.panelSets(scale);
+    for (const [name, { panels }] of Object.entries(this.views)) {
+      this.root.querySelector(`.field.${name}`).replaceChildren(...panels.map((panel) => panel.box));
+      for (const panel of panels) {
+        panel.zoom = panel.spec.x.label.startsWith("t ") && end !== this.end ? null : zooms[panel.spec.key] ?? null;
+        panel.single.onclick = () => this.alone(panel.spec.key);
+        panel.box.classList.toggle("shown", panel.spec.key === this.only);
+      }
+    }
+    this.end = end;
+    this.look(this.view);
+  }
+
+  fit() {
+    for (const panel of this.views[this.view]?.panels ?? []) panel.chart ? panel.resize() : panel.plot.clientWidth && panel.build(this.theme);
+  }
+
+  look(view) {
+    this.view = view;
+    this.root.dataset.view = view;
+    this.tabs.forEach((b) => b.setAttribute("aria-pressed", b.value === view));
+    if (!this.views[view]?.panels.some((panel) => panel.spec.key === this.only)) this.only = undefined;
+    this.root.classList.toggle("alone", Boolean(this.only));
+    this.choose();
+    this.fit();
+    this.show();
+  }
+
+  /** On a narrow screen: a button for each panel of this view. */
+  choose() {
+    const panels = this.views[this.view]?.panels ?? [];
+    const shown = panels.some((panel) => panel.spec.key === this.only) ? this.only : panels[0]?.spec.key;
+    this.root.querySelector(".chooser").replaceChildren(
+      ...panels.map(({ spec }) => {
+        const made = button(spec.short ?? spec.title, "", () => this.alone(spec.key));
+        made.setAttribute("aria-pressed", spec.key === shown);
+        return made;
+      }),
+    );
+  }
+
+  /** One panel alone, or all again. */
+  alone(key) {
+    this.only = this.only === key ? undefined : key;
+    this.root.classList.toggle("alone", Boolean(this.only));
+    this.root.querySelectorAll("figure").forEach((box) => box.classList.toggle("shown", box.dataset.panel === this.only));
+    this.choose();
+    requestAnimationFrame(() => {
+      this.fit();
+      this.show();
+    });
+  }
+
+  /** What happens if: tau_c up and down, from a third to three times where it is. */
+  play() {
+    const slider = this.slider;
+    if (slider.fixed) return;
+    const middle = slider.tau_c, begin = performance.now();
+    this.root.querySelector(".play").setAttribute("aria-pressed", "true");
+    const step = (now) => {
+      const swing = 3 ** Math.sin((2 * Math.PI * (now - begin)) / PERIOD);
+      slider.place(Math.min(slider.high, Math.max(slider.low, middle * swing)));
+      this.show();
+      this.playing = requestAnimationFrame(step);
+    };
+    this.playing = requestAnimationFrame(step);
+  }
+
+  stop(release = false) {
+    if (!this.playing) return;
+    cancelAnimationFrame(this.playing);
+    this.playing = 0;
+    this.root.querySelector(".play").setAttribute("aria-pressed", "false");
+    if (release) this.release(this.slider);
+  }
+
+  lecture() {
+    const open = this.root.matches(":popover-open");
+    if (open) {
+      this.root.hidePopover();
+      this.root.removeAttribute("popover");
+    } else {
+      this.root.popover = "manual"; // the top layer: above Streamlit's header, and no request for full screen needed
+      this.root.showPopover();
+    }
+    this.root.querySelector(".lecture").setAttribute("aria-pressed", !open);
+    this.rebuild();
+    this.slider.handle.focus();
+  }
+
+  key(event) {
+    if (event.target.matches("input") || event.ctrlKey || event.metaKey || event.altKey) return;
+    const panel = this.views[this.view]?.panels.find((each) => each.box.contains(event.target));
+    if (this.preset(Number(event.key))) event.preventDefault();
+    else if (event.key === " " && !event.target.matches("button")) this.playing ? this.stop(true) : this.play();
+    else if (event.key === "l" || event.key === "L") this.lecture();
+    else if (event.key === "Escape" && this.root.matches(":popover-open")) this.lecture();
+    else if (event.key === "Escape" && panel?.zoom) panel.reset();
+    else return;
+    event.preventDefault();
+  }
+}

@@ -1,0 +1,22 @@
+// An instrument on the page. Messages come as elements of their own (message.js), some of them before it is there.
+
+function mount(name, make) {
+  const live = new Map(); // element of the page -> its instrument
+  return ({ parentElement, data, setTriggerValue }) => {
+    let one = live.get(parentElement);
+    if (!one) {
+      one = make(parentElement.querySelector(".live"));
+      live.set(parentElement, one);
+    }
+    one.send = (what) => setTriggerValue("release", what);
+    one.take(unpack(data));
+    const box = letters(name);
+    box.open = (message) => one.take(message);
+    for (const message of box.waiting.splice(0)) one.take(message);
+    return () => {
+      one.stop();
+      live.delete(parentElement);
+      if (live.size === 0) box.open = null;
+    };
+  };
+}

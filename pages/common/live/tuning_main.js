@@ -1,0 +1,1 @@
+export default mount("tuning", (root) => new Tuning(root));
