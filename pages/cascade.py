@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages.common import cascade_guards, cascade_widgets, guards, header
+from pages.common import cascade_guards, cascade_widgets, guards, header, live, state
 from pages.common.cascade_diagram import diagram
 from pages.common.cascade_pairs import pairs_view
 from pages.common.cascade_panels import frequencies, panels
@@ -12,13 +12,18 @@ from pages.common.cascade_study import CascadeStudy, attempt
 from pages.common.cascade_windup import windup_view
 
 
+def instrument(present: CascadeStudy) -> None:
+    """Sliders, figures and panels that follow the hand."""
+    live.cascade_instrument(present.cascade)
+
+
 def figures(present: CascadeStudy) -> None:
     """The strip and the field of four."""
     readout(present)
     panels(present)
 
 
-VIEWS = {"Figures": figures, "Bode": frequencies, "Settings": settings, "Windup": windup_view}
+VIEWS = {"Live": instrument, "Figures": figures, "Bode": frequencies, "Settings": settings, "Windup": windup_view}
 PAIRS = "Paper's pairs"
 
 design = header.show("cascade")
@@ -29,7 +34,7 @@ with st.container(key="cascade"):
 with controls:
     cascade_widgets.blocks()
     cascade_widgets.method()
-    cascade_widgets.loops(present)
+    cascade_widgets.loops(present, slider=state.widget("cascade_views", "Live") != "Live")
     form = cascade_widgets.form(present)
     if present is not None:
         cascade_guards.show(present)
