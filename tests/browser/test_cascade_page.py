@@ -7,7 +7,7 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.tools import THEMES, WIDTHS, fits, idle, nyquist_scale, picture
 
-TABS = ("Figures", "Bode", "Settings", "Windup", "Paper's pairs")
+TABS = ("Live", "Figures", "Bode", "Settings", "Windup", "Paper's pairs")
 PANELS = ("y1", "y2", "u", "nyquist")
 TRACEBACK = "[data-testid=stException]"
 
@@ -32,6 +32,7 @@ def tab(page: Page, name: str) -> None:
 
 def test_from_a_pair_of_the_paper_to_a_link_that_opens_the_same_cascade(server, fresh_server, open_page):
     page = open_page(f"{server}/cascade")
+    tab(page, "Figures")
     choose_pair(page, "Pair 1a")
     expect(page.get_by_role("radio", name="Synthesis")).to_be_checked()
     assert peaks(page) == pytest.approx([2.0, 2.0], abs=0.01)
@@ -47,12 +48,14 @@ def test_from_a_pair_of_the_paper_to_a_link_that_opens_the_same_cascade(server, 
     tab(page, "Figures")
     link = page.get_by_test_id("stSidebar").locator("code").inner_text()
     again = open_page(re.sub(r"^http://[^/]+", fresh_server(), link))
+    tab(again, "Figures")
     assert again.locator(".strip").inner_text() == page.locator(".strip").inner_text()
     assert again.locator(".diagram .wide").text_content() == page.locator(".diagram .wide").text_content()
 
 
 def test_everything_that_decides_is_in_sight_without_scrolling(server, open_page):
     page = open_page(f"{server}/cascade")
+    tab(page, "Figures")
     for key in PANELS:
         panel = page.locator(f".st-key-panel_{key}")
         panel.locator(".main-svg").first.wait_for()
@@ -66,6 +69,7 @@ def test_everything_that_decides_is_in_sight_without_scrolling(server, open_page
 
 def test_a_narrow_screen_has_its_own_diagram_and_one_panel(server, open_page):
     page = open_page(f"{server}/cascade", 390)
+    tab(page, "Figures")
     expect(page.locator(".diagram .narrow")).to_be_visible()
     expect(page.locator(".diagram .wide")).to_be_hidden()
     visible = [page.locator(f".st-key-panel_{key}").is_visible() for key in PANELS]
@@ -97,6 +101,7 @@ def test_a_tab_of_the_tuning_page_does_not_follow_to_the_cascade(server, open_pa
     page.locator(".st-key-chain").get_by_role("link", name="Cascade").click()
     page.wait_for_url(re.compile("cascade"))
     idle(page)
+    tab(page, "Figures")
     expect(page.locator(".st-key-panel_y1 .main-svg").first).to_be_visible()
     assert page.locator(TRACEBACK).count() == 0
 
