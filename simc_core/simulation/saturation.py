@@ -37,6 +37,7 @@ from simc_core.simulation.actuation import (
 )
 from simc_core.simulation.blocks import Linear, blocks
 from simc_core.simulation.sampling import sampled
+from simc_core.simulation.system import WELL_POSED
 
 
 def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Course:
@@ -84,6 +85,8 @@ def _delayed(m: int, system: Linear, Ki: float, law: "_Law", inputs: Inputs, dt:
 def _undelayed(system: Linear, Ki: float, law: "_Law", inputs: Inputs, dt: float, ask, rate):
     """The same for theta = 0: outputs at both ends of a step are affine in u there, and u answers to them at once."""
     (Phi, G1, G2), C, D, n = system.ramp(dt), system.C, system.D, len(system.B)
+    if abs(1 + D[1]) < WELL_POSED:
+        raise InvalidParameter("1 + L(inf) must not be zero in a loop without dead time, got 0: u is not defined")
     N, moved = len(ask), np.concatenate([C, C @ Phi, Phi])
     extra = np.zeros((N, 2, 3))  # what d adds to the outputs
     first, kick, whole = arrival(system, dt, 0.0, inputs)

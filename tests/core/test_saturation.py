@@ -284,6 +284,17 @@ def test_periods_and_dead_times_beyond_the_horizon():
         assert np.all(actuated(far, Actuation(-1.0, 1.0, h=h), 1.0, 1.0, 5.0, 20.0).y == 0)
 
 
+def test_a_plant_that_is_a_gain_answers_at_once():
+    """y = u + d under PI: v = Kc (1 - y) + I with u = v gives u' = (1 - u - d)/(2 tau_I) for Kc = 1, from u = 1/2."""
+    t = np.linspace(0.0, 40.0, 41)
+    found = simulate(Loop(Plant(1.0), SeriesPid(1.0, 4.0)), Scenario(1.0, -0.5, 20.0, t=t, u_max=1.2))
+    first = 1 - 0.5 * np.exp(-t / 8)
+    late = np.minimum(1.5 - (0.25 + 0.5 * np.exp(-2.5)) * np.exp(-(t - 20) / 8), 1.2)
+    assert found.u[t < 20] == pytest.approx(first[t < 20], abs=1e-6)
+    assert found.u[t >= 20] == pytest.approx(late[t >= 20], abs=1e-6)
+    assert found.y == pytest.approx(found.u - 0.5 * (t >= 20))
+
+
 def test_an_unstable_response_is_cut_off_and_not_infinite():
     loop = Loop(Plant(-1.0, 1.0, (-1.0,)), SeriesPid(-1.0, 8.0))
     found = simulate(loop, Scenario(t_end=3000.0, u_min=-0.1, u_max=0.1))
@@ -322,5 +333,7 @@ def test_what_has_no_meaning_is_refused():
     cascade = CascadeLoop(Plant(1, 1, (5,)), Plant(1, 0.2, (1,)), SeriesPid(1, 5), SeriesPid(1, 1))
     with pytest.raises(InvalidParameter, match="nested loops"):
         simulate(cascade, Scenario(u_max=2.0))
+    with pytest.raises(InvalidParameter, match="u is not defined"):
+        simulate(Loop(Plant(-1.0), SeriesPid(1.0, 8.0)), Scenario(t_end=5.0, u_max=1.0))
     with pytest.raises(InvalidParameter, match="50000 steps for a sampling period of 1e-06"):
         simulate(LOOPS[0], Scenario(h=1e-6))
