@@ -26,6 +26,7 @@ NEWTON_STEPS = 12
 CHAIN_STEPS = 3
 FAR_LEFT = -(2.0 ** np.arange(0.0, 6.0, 0.25))  # theta s of real poles that the discretisation has not resolved
 SETTLED = 1e-12
+ILL_POSED = 1e-12  # |1 + L(inf)| without dead time
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +65,8 @@ def rightmost(L: Factored) -> np.ndarray:
     """
     unit = L.theta or 1.0
     A, B, C, D = chain(L, unit)
+    if L.theta == 0 and abs(1 + D) < ILL_POSED:
+        return np.zeros(0, dtype=complex)  # no loop at all
     if L.theta == 0:
         generator = A - np.outer(B, C) / (1 + D)
     else:
