@@ -2,6 +2,7 @@
 
 const INNER = "#009E73";
 const INNER_DASH = [8, 4];
+const LEAVES = 100; // what grows is drawn until it is this large, in steps of r
 
 function cascadePanels(setup, scale) {
   const { t, omega, starts } = setup;
@@ -38,12 +39,16 @@ function cascadePanels(setup, scale) {
 
   const step = { x: [0, 0, end], y: [0, 1, 1] };
   const loads = starts.map((start) => ({ x: [start, start], y: [-1e6, 1e6] }));
-  const over = (y) => (y ? { x: t, y } : EMPTY);
+  const over = (y, why) => {
+    if (!y) return EMPTY;
+    const count = why ? y.findIndex((v) => Math.abs(v) > LEAVES) : -1;
+    return count < 0 ? { x: t, y } : { x: t.slice(0, count + 1), y: y.slice(0, count + 1) };
+  };
   return {
     panels: [output, input, nyquist, sensitivity],
     draw({ y1, y2, u, loops, metrics, why }) {
-      output.show([step, ...loads, over(y2), over(y1)], [], why);
-      input.show([...loads, over(u)], [], why);
+      output.show([step, ...loads, over(y2, why), over(y1, why)], [], why);
+      input.show([...loads, over(u, why)], [], why);
       const { inner, outer } = loops ?? { inner: EMPTY, outer: EMPTY };
       nyquist.show(...nyquistCurves([metrics.Ms_inner, metrics.Ms_outer], [], [inner, outer]), why);
       const S = ({ x, y }) => ({ x: x.length ? omega : [], y: sensitivities(x, y).S });
