@@ -18,7 +18,8 @@ from simc_core.simulation.simulate import settled
 from simc_core.stability import remembered
 
 ROUNDS = 9
-REMEMBERING = (factored_plant, levels, settled, remembered, steps_of, cascade.verdict, cascade.closed)
+OF_LOOPS = (settled, remembered, steps_of, cascade.verdict, cascade.closed)
+OF_PLANTS = (factored_plant, levels)
 POINTS, FREQUENCIES = 600, 400
 
 
@@ -53,9 +54,9 @@ def median_times(jobs: dict[str, Callable[[], object]]) -> dict[str, float]:
     return {name: float(np.median(values)) for name, values in taken.items()}
 
 
-def forgotten() -> None:
-    """Everything that is remembered between calls, of plants and of loops."""
-    for function in REMEMBERING:
+def forgotten(plants: bool = True) -> None:
+    """Everything that is remembered between calls of loops, and of plants."""
+    for function in (*OF_LOOPS, *(OF_PLANTS if plants else ())):
         function.cache_clear()
 
 

@@ -86,8 +86,15 @@ def measures(steps: Steps, with_times: bool = True) -> Measures:
     peak, peak_time, opposite = _extremes(steps, of_y)
     e = -steps.y
     e[:, 0] += steps.target[steps.owner]
-    of_e = zeros(e, _alive(e, steps), of_y)
-    rise, settling = _times(steps, peak, of_y) if with_times else np.full((2, len(peak)), np.nan)
+    levels = _levels(steps, peak) if with_times else np.zeros((0, len(peak)))
+    series = np.concatenate([e, *[steps.y] * len(levels)])
+    series[m:, 0] -= levels[:, steps.owner].ravel()
+    wanted = np.concatenate([_alive(e, steps), np.ones(len(series) - m, dtype=bool)])
+    found = zeros(series, wanted, of_y)
+    of_e, crossed = found[found.row < m], found[found.row >= m]
+    rise = settling = np.full(len(peak), np.nan)
+    if with_times:
+        rise, settling = _times(steps, series[m:], levels, crossed.row - m, crossed.x)
     IAE, ITAE = _absolute_integrals(steps, e, of_e)
     left, right = steps.u @ SIGNS, steps.u.sum(axis=1)
     TV = _variation(of_u.row, of_u.of(steps.u), left, right) + np.abs(left - steps.before(right, 0.0))
@@ -156,22 +163,29 @@ def _extremes(steps: Steps, at: Places) -> tuple[np.ndarray, np.ndarray, np.ndar
     return peak, time, np.where(peak > 0, -low, high)
 
 
-def _times(steps: Steps, peak: np.ndarray, turning: Places) -> tuple[np.ndarray, np.ndarray]:
-    """Rise time, 10 % to 90 %, nan for a load step; settling time, within 2 % of the step or of the load's peak."""
-    m, band = len(steps.owner), SETTLING * np.where(steps.target, 1.0, np.abs(peak))
-    levels = np.stack([*np.broadcast_arrays(*RISE, peak)[:2], steps.target - band, steps.target + band])
-    shifted = np.concatenate([steps.y] * len(levels))
-    shifted[:, 0] -= levels[:, steps.owner].ravel()
-    found = zeros(shifted, np.ones(len(shifted), dtype=bool), turning)
+def _levels(steps: Steps, peak: np.ndarray) -> np.ndarray:
+    """10 %, 90 %, and the band of 2 % of the step, or of the load's peak, about where the response ends: (4, n)."""
+    band = SETTLING * np.where(steps.target, 1.0, np.abs(peak))
+    found = np.empty((4, len(peak)))
+    found[0], found[1], found[2], found[3] = *RISE, steps.target - band, steps.target + band
+    return found
+
+
+def _times(steps: Steps, shifted: np.ndarray, levels: np.ndarray, row: np.ndarray, x: np.ndarray):
+    """Rise time, nan for a load step, and settling time.
+
+    shifted: y less each of `levels`, one list of pieces after the other.   row, x: its zeros.
+    """
+    m, n = len(steps.owner), len(steps.first)
     left, right = (shifted @ SIGNS).reshape(-1, m), shifted.sum(axis=1).reshape(-1, m)
-    before = np.stack([steps.before(each, -level) for each, level in zip(right, levels, strict=True)])
+    before = np.empty_like(right)
+    before[:, 1:], before[:, steps.first] = right[:, :-1], -levels
     jumped = np.flatnonzero(left * before < 0)
-    kind, piece = np.divmod(np.concatenate([found.row, jumped]), m)
-    times = steps.time(piece, np.concatenate([found.x, np.full(len(jumped), -1.0)]))
+    kind, piece = np.divmod(np.concatenate([row, jumped]), m)
+    times = steps.time(piece, np.concatenate([x, np.full(len(jumped), -1.0)]))
     owner, rising = steps.owner[piece], kind < 2
-    first = np.full((2, len(steps.first)), np.inf)
+    first, settling = np.full((2, n), np.inf), np.zeros(n)
     np.minimum.at(first, (kind[rising], owner[rising]), times[rising])
     first = np.where(np.isfinite(first), first, 0.0)
-    settling = np.zeros(len(steps.first))
     np.maximum.at(settling, owner[~rising], times[~rising])
     return np.where(steps.target, first[1] - first[0], np.nan), settling

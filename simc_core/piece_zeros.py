@@ -72,18 +72,18 @@ def _polished(own: np.ndarray, row: np.ndarray, low, high, first, last) -> Place
     """Zeros of the series `own` between low and high, where their values are first and last."""
     slope, below = own @ SLOPE, first < 0
     x = low - first * (high - low) / (last - first)
-    for _ in range(NEWTON if len(x) else 0):
-        basis = _basis(x)
-        f = (own * basis).sum(axis=1)
-        same = (f < 0) == below
-        low, high = np.where(same, x, low), np.where(same, high, x)
-        with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for _ in range(NEWTON if len(x) else 0):
+            basis = _basis(x)
+            f = (own * basis).sum(axis=1)
+            same = (f < 0) == below
+            low, high = np.where(same, x, low), np.where(same, high, x)
             newton = x - f / (slope * basis).sum(axis=1)
-        inside = (newton >= low) & (newton <= high)
-        following = np.where(inside, newton, np.where(f == 0, x, (low + high) / 2))
-        moved, x = np.abs(following - x), following
-        if moved.max() <= QUADRATIC:
-            break
+            inside = (newton >= low) & (newton <= high)
+            following = np.where(inside, newton, np.where(f == 0, x, (low + high) / 2))
+            moved, x = np.abs(following - x), following
+            if moved.max() <= QUADRATIC:
+                break
     return Places(row, x, _basis(x))
 
 

@@ -227,13 +227,12 @@ class _Walk:
                 del self.active[i]
 
     def _away(self, at, values: np.ndarray, largest: np.ndarray) -> list[float]:
-        """How far from its final value each response is, over its largest value: at the end, and if that is near,
-        in all of the element."""
+        """How far from its final value each response gets in the element, over its largest value; inf if it ends far."""
         final = self.final[at]
-        away = (np.abs(values[:, -1] - final) / largest).max(axis=1)
-        if away.min() <= ROUNDING:
-            away = (np.abs(values - final[:, None]).max(axis=1) / largest).max(axis=1)
-        return away.tolist()
+        near = (np.abs(values[:, -1] - final) <= ROUNDING * largest).all(axis=1)
+        if not near.any():
+            return [math.inf] * len(values)
+        return (np.abs(values - final[:, None]).max(axis=1) / largest).max(axis=1).tolist()
 
     def _keep(self, which: list[int], at, level: int, length: float, values, x, xi) -> None:
         """Enter a stretch, and go on from its end."""
