@@ -40,7 +40,7 @@ def main() -> None:
     pin()
     rows = []
     print(
-        "| case | new plant, ms | same plant retuned | Pade(5) | Pade(10) | ratios to Pade(10) | error of y, Pade(10) |"
+        "| case | new plant, ms | retuned, ms | Pade(5) | Pade(10) | ratios to Pade(10) | error of y, Pade(10) |"
     )
     print("|---|---|---|---|---|---|---|")
     for name, loop in CASES.items():

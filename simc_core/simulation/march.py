@@ -227,7 +227,7 @@ class _Walk:
                 del self.active[i]
 
     def _away(self, at, values: np.ndarray, largest: np.ndarray) -> list[float]:
-        """How far from its final value each response gets in the element, over its largest value; inf if it ends far."""
+        """How far from its final value each response gets in the element, over its largest value; inf where far."""
         final = self.final[at]
         near = (np.abs(values[:, -1] - final) <= ROUNDING * largest).all(axis=1)
         if not near.any():
