@@ -19,6 +19,7 @@ from simc_core.reduction import LARGEST_MS, Reduction
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4
+SOLVED = 1e-6  # a loop designed for Ms = 2 has it to this
 ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
 
 
@@ -60,7 +61,7 @@ def advice(
 
 def large_Ms(Ms: float) -> Advice | None:
     """Ms > 2."""
-    if not Ms > LARGEST_MS:
+    if not Ms > LARGEST_MS * (1 + SOLVED):
         return None
     return Advice(
         "warning",

@@ -12,6 +12,7 @@ from simc_core.figures import palette
 from simc_core.notation import number
 
 CALM, ATTENTION = 1.6, 2.0  # upper ends of the bands of Ms
+SOLVED = 1e-6  # a loop designed for Ms = 2 has it to this
 DIGITS = 3
 STYLE = f"""<style>
 .strip {{display: grid; grid-template-columns: 1.5fr repeat(5, 1fr); font-variant-numeric: tabular-nums;
@@ -101,9 +102,9 @@ def readings(study: Study) -> list[Reading]:
 
 def band_of(Ms: float) -> tuple[str, str]:
     """Name of the band of Ms, and what it means in words."""
-    if Ms <= CALM:
+    if Ms <= CALM * (1 + SOLVED):
         return "calm", "calm: robust (≤ 1.6)"
-    if Ms <= ATTENTION:
+    if Ms <= ATTENTION * (1 + SOLVED):
         return "attention", "attention: little to spare (≤ 2.0)"
     return "alarm", "alarm: too close to −1 (> 2.0)"
 

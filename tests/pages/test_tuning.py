@@ -7,7 +7,7 @@ import re
 import pytest
 
 from pages.common.design import Tuning
-from pages.common.readout import strip_html
+from pages.common.readout import band_of, strip_html
 from pages.common.study import study
 from simc_core import parse_plant
 
@@ -207,3 +207,10 @@ def test_a_loop_at_the_edge_of_stability_has_margins_and_no_integrals():
     assert found.margins.Ms > 1e4
     assert math.isnan(found.performance.setpoint.IAE)
     assert "not known: too near its stability limit" in strip_html(found)
+
+
+@pytest.mark.parametrize(
+    ("Ms", "band"), [(1.6, "calm"), (1.61, "attention"), (2 + 1e-10, "attention"), (2.001, "alarm")]
+)
+def test_bands_of_ms(Ms, band):
+    assert band_of(Ms)[0] == band
