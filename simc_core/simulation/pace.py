@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 from simc_core.errors import InvalidParameter
 
-TAIL = 1e-12
-ROOM = 3e-3  # of TAIL
+TAIL = 1e-11
+ROOM = 1e-3  # of TAIL
 PATIENCE, MOST_PATIENCE = 4, 16
 LOWEST, HIGHEST = -48, 60  # levels
-REST = 1e-11  # of the largest value: nearer than this to where it ends, a response is at rest
+REST = 1e-10  # of the largest value: nearer than this to where it ends, a response is at rest
 ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors
 
 
