@@ -10,6 +10,7 @@ Numbers are written with all their digits, so that a link opens the very same de
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 from urllib.parse import quote, urlencode
 
 from pages.common.design import Design, Tuning
@@ -63,8 +64,8 @@ class Ignored:
 
 def encode(design: Design) -> dict[str, str]:
     """The query parameters of a design."""
-    now, usual = _flat(design), _flat(Design())
-    return {name: text for name, text in now.items() if text and (name in ALWAYS or text != usual[name])}
+    usual = _usual()
+    return {name: text for name, text in _flat(design).items() if text and (name in ALWAYS or text != usual[name])}
 
 
 def query(design: Design) -> str:
@@ -97,6 +98,12 @@ def number_text(value: float | None) -> str:
 def _short(text: str) -> str:
     text = "".join(c if c.isprintable() and c != "`" else "?" for c in text)
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+@cache
+def _usual() -> dict[str, str]:
+    """The default design, which nothing changes."""
+    return _flat(Design())
 
 
 def _flat(design: Design) -> dict[str, str]:

@@ -38,7 +38,9 @@ def begin() -> Design:
 
 def design_now() -> Design:
     """The whole design."""
-    return st.session_state.setdefault("design", Design())
+    if "design" not in st.session_state:
+        st.session_state["design"] = Design()
+    return st.session_state["design"]
 
 
 def plant() -> Plant:
