@@ -1,7 +1,7 @@
-"""Plants from the literature, each with its source, and the ten cascade pairs of [PSB].
+"""Plants from the literature, each with its source. The ten cascade pairs are in cascade_examples.py.
 
 [SK98] Skogestad 1998; [SK03] Skogestad, J. Process Control 13 (2003) 291; [V06] Viteckova 2006;
-[PSB] Prelic, Sekara, Boskovic; [SG12] Skogestad and Grimholt 2012.
+[SG12] Skogestad and Grimholt 2012.
 """
 
 from dataclasses import dataclass
@@ -18,17 +18,6 @@ class Example:
     plant: Plant
     source: str
     note: str
-
-
-@dataclass(frozen=True, slots=True)
-class CascadeExample:
-    """A pair of processes in cascade: primary Ga, secondary Gb."""
-
-    key: str
-    name: str
-    primary: Plant
-    secondary: Plant
-    source: str
 
 
 SK03 = "[SK03] Table 4"
@@ -126,24 +115,4 @@ EXAMPLES = (
         "[SK98] eq. 23-24",
         "e^{-s}/(10 s - 1), a theta = 0.1: the published Ms is 1.80.",
     ),
-)
-
-PSB = "[PSB] Table 1"
-
-
-def _pair(number: int, primary: Plant, secondary: Plant) -> CascadeExample:
-    return CascadeExample(f"PSB-{number}", f"Pair {number}", primary, secondary, PSB)
-
-
-CASCADE_EXAMPLES = (
-    _pair(1, Plant(2.0, 2.0, (5.0,)), Plant(1.0, 1.0, (2.0, 3.0))),
-    _pair(2, Plant(1.0, 1.0, (1.0, 1.0)), Plant(1.0, 0.1, (0.1,))),
-    _pair(3, Plant(1.0, 0.25, integrators=1), Plant(1.0, 0.5, (1.0, 2.0))),
-    _pair(4, Plant(2.0, 1.0, (10.0,)), Plant(1.0, 0.5, integrators=1)),
-    _pair(5, Plant(-1.0, 3.0, (-10.0,)), Plant(2.0, 1.0, (1.0,))),
-    _pair(6, Plant(2.0, 2.0, (20.0,)), Plant(-1.0, 1.0, (-20.0,))),
-    _pair(7, Plant(0.5, 0.7, integrators=1), Plant(-2.0, 1.0, (-20.0,))),
-    _pair(8, Plant(-1.0, 4.0, (-20.0,)), Plant(2.0, 2.0, integrators=1)),
-    _pair(9, Plant(-1.0, 4.0, (-20.0,)), Plant(-2.0, 0.1, (-10.0,))),
-    _pair(10, Plant(1.0, 0.7, integrators=2), Plant(1.0, 0.3, (1.0,))),
 )

@@ -125,6 +125,10 @@ def _curves_and_metrics(
     for some, course in _courses(plant, controllers, ends):
         curves[some] = _at(course, t, disturbance_time)
         rest, k = course.at_rest, len(some)
+        reached = course.begin[course.first[1:] - 1] + course.length[course.first[1:] - 1]
+        short = some[~rest & (reached < t[-1])]  # too near its limit to come to rest, and not far enough
+        if short.size and ends[short[0]] is None:
+            curves[short] = time_curves(plant, [controllers[i] for i in short], t, disturbance_time)
         if rest.any():
             found = measures(both_steps(course), with_times=False)
             columns = (found.IAE[:k], found.IAE[k:], found.TV[:k], found.TV[k:], found.overshoot[:k])

@@ -5,8 +5,8 @@
 
 z_i is the input of block i: z_1 = u_1 + d_1, z_i = y_{i-1} + d_i; counted from the inside out as in nested.py, u_i the
 output of controller i. The disturbance enters with the control signal, through the same states: responses to
-it stay bounded where the loop is stable, also with unstable blocks. Controllers as in system.py, those
-inside on the error. A block without dead time has its w eliminated.
+it stay bounded where the loop is stable, also with unstable blocks. Controllers inside act on the error. A block
+without dead time has its w eliminated.
 """
 
 from dataclasses import dataclass

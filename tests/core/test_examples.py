@@ -5,7 +5,8 @@ import cmath
 import pytest
 
 from simc_core import half_rule, simc
-from simc_core.examples import CASCADE_EXAMPLES, EXAMPLES
+from simc_core.cascade_examples import PAIRS
+from simc_core.examples import EXAMPLES
 from tests.published import PUBLISHED, plant_of
 
 BY_KEY = {example.key: example for example in EXAMPLES}
@@ -45,16 +46,14 @@ def test_every_example_reduces_and_can_be_tuned(example, order):
 
 
 def test_keys_and_names_are_unique_and_everything_has_a_source():
-    for examples in (EXAMPLES, CASCADE_EXAMPLES):
-        assert len({example.key for example in examples}) == len(examples)
-        assert len({example.name for example in examples}) == len(examples)
-        assert all(example.source.startswith("[") for example in examples)
-    assert all(example.note for example in EXAMPLES)
+    assert len({example.key for example in EXAMPLES}) == len(EXAMPLES)
+    assert len({example.name for example in EXAMPLES}) == len(EXAMPLES)
+    assert all(example.source.startswith("[") and example.note for example in EXAMPLES)
 
 
-@pytest.mark.parametrize("example", CASCADE_EXAMPLES, ids=lambda example: example.key)
-def test_cascade_blocks_have_a_model_each(example):
-    for plant in (example.primary, example.secondary):
+@pytest.mark.parametrize("pair", PAIRS)
+def test_cascade_blocks_have_a_model_each(pair):
+    for plant in PAIRS[pair]:
         assert half_rule(plant, 2).model.theta == plant.theta
 
 
@@ -70,9 +69,9 @@ def test_the_ten_pairs_as_functions():
         1 / (20 * s - 1), 2 / (20 * s - 1), 2 / s, 2 / (10 * s - 1), 1 / (s + 1),
     ]  # fmt: skip
     delays = [(2, 1), (1, 0.1), (0.25, 0.5), (1, 0.5), (3, 1), (2, 1), (0.7, 1), (4, 2), (4, 0.1), (0.7, 0.3)]
-    for example, primary, secondary, (theta_a, theta_b) in zip(
-        CASCADE_EXAMPLES, primaries, secondaries, delays, strict=True
+    for (outer, inner), primary, secondary, (theta_a, theta_b) in zip(
+        PAIRS.values(), primaries, secondaries, delays, strict=True
     ):
-        assert (example.primary.theta, example.secondary.theta) == (theta_a, theta_b)
-        assert example.primary.factored(s) == pytest.approx(primary * cmath.exp(-theta_a * s))
-        assert example.secondary.factored(s) == pytest.approx(secondary * cmath.exp(-theta_b * s))
+        assert (outer.theta, inner.theta) == (theta_a, theta_b)
+        assert outer.factored(s) == pytest.approx(primary * cmath.exp(-theta_a * s))
+        assert inner.factored(s) == pytest.approx(secondary * cmath.exp(-theta_b * s))

@@ -5,6 +5,7 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from scipy.special import lambertw
 
 from simc_core import (
     InvalidParameter,
@@ -128,3 +129,13 @@ def test_bounds_of_grids():
     for t, omega in (([1.0, 0.0], [1.0]), ([0.0, 1.0], [0.0, 1.0])):
         with pytest.raises(InvalidParameter):
             sweep(Plant(1, 1, integrators=2), DoubleIntegratingDelay(1, 1), [1.0], t, omega)
+
+
+def test_a_loop_that_hardly_comes_to_rest_is_followed_to_the_last_instant():
+    """K e^{-s}/s near K = pi/2: y = 1 - 2 Re e^{s t}/(1 + s) late on, with s e^s = -K (Lambert W)."""
+    K, t = math.pi / 2 * (1 - 1e-5), np.array([0.0, 20_000.25, 28_000.5, 30_001.0])
+    s = complex(lambertw(-K))
+    found = sweep(Plant(2 * K, 1.0), FirstOrderDelay(1, 1, 0), [1.0], t, [1.0])
+    assert found.stable[0]
+    expected = 1 - 2 * (np.exp(s * t[1:]) / (1 + s)).real
+    assert found.y_setpoint[0, 1:] == pytest.approx(expected, abs=1e-8)
