@@ -1,6 +1,6 @@
 """Step metrics over an infinite horizon, from the piecewise polynomials of the engine (metrics.py).
 
-A response is followed until y and u stay within REST = 1e-11 of their largest value from where they end (pace.py).
+A response is followed until y and u stay within REST = 1e-10 of their largest value from where they end (pace.py).
 Truncation error: what a decaying mode still adds behind that, REST times its time constant. A loop that needs more
 than march.MOST_TO_REST elements to come to rest is too close to its stability limit for that, and is told so.
 """
