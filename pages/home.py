@@ -4,6 +4,7 @@ import streamlit as st
 
 from pages.common import header, state
 from pages.common.plant_view import size
+from pages.common.symbols import symbols
 from simc_core.examples import EXAMPLES
 from simc_core.notation import latex
 
@@ -23,7 +24,7 @@ for first in range(0, len(EXAMPLES), A_ROW):
     for column, example in zip(st.columns(A_ROW), EXAMPLES[first : first + A_ROW], strict=False):
         with column.container(border=True, height="stretch", vertical_alignment="distribute"):
             st.markdown(f"$\\displaystyle {size(example.plant)} {latex(example.plant)}$")
-            st.caption(f"{example.note} {example.source}")
+            st.caption(symbols(f"{example.note} {example.source}"))
             if st.button(example.name, key=f"example_{example.key}", width="stretch"):
                 state.change(plant=example.plant)
                 header.go("plant")

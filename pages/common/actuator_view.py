@@ -181,4 +181,4 @@ def _pair(first: float, second: float) -> str:
 
 
 def _range(ends: tuple[float, float]) -> str:
-    return f"{number(ends[0], DIGITS)} … {number(ends[1], DIGITS)}"
+    return f"{number(ends[0], DIGITS)} … {number(ends[1], DIGITS)}".replace("-", "−")

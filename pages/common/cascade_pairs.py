@@ -2,6 +2,7 @@
 
 import streamlit as st
 
+from pages.common.cascade_widgets import METHOD_NAMES
 from pages.common.symbols import symbols
 from simc_core.cascade_examples import Judged, judged_pairs
 from simc_core.notation import number, plain
@@ -52,7 +53,7 @@ def indices(each: Judged) -> dict[str, str]:
 
 def settings(each: Judged) -> dict[str, str]:
     """Settings of both controllers of a row."""
-    printed, row = each.row.published, {"pair": each.row.name, "method": each.row.method}
+    printed, row = each.row.published, {"pair": each.row.name, "method": METHOD_NAMES[each.row.method]}
     for index, controller, values in (
         ("a", each.design.outer, printed and printed.outer),
         ("b", each.design.inner, printed and printed.inner),

@@ -14,7 +14,7 @@ from simc_core.figures.palette import Figure, Trace
 from simc_core.loop import FrequencyResponse
 from simc_core.margins import Margins
 
-REFERENCES = ((1.4, 122.0), (1.6, 90.0), (2.0, 52.0))  # Ms, and where the label interrupts its circle, degrees
+REFERENCES = ((1.4, 110.0), (1.6, 160.0), (2.0, 60.0))  # Ms, and where the label interrupts its circle, degrees
 LABEL = 0.14  # half length of the interruption, in units of L
 FLAT = 1e-6  # |Mt - 1| below this: the circle is a line to the eye
 VIEW_X, VIEW_Y = (-2.2, 0.7), (-1.4, 0.85)
@@ -54,7 +54,7 @@ def _plane(traces: list[Trace], judged: Sequence[Margins], height: int | None) -
     circles = [trace for Ms, angle in REFERENCES for trace in _reference(Ms, angle)]
     stable = all(margins.stable for margins in judged)
     return palette.figure(
-        [*circles, *traces, _critical_point()],
+        [*circles, *traces, critical_point()],
         palette.axis("Re L  [–]", range=_view(judged), zeroline=True, constrain="range"),
         palette.axis("Im L  [–]", range=list(VIEW_Y), zeroline=True, scaleanchor="x", scaleratio=1),
         height,
@@ -63,7 +63,8 @@ def _plane(traces: list[Trace], judged: Sequence[Margins], height: int | None) -
     )
 
 
-def _critical_point() -> Trace:
+def critical_point() -> Trace:
+    """The red cross at -1."""
     cross = {"width": 2.5, "color": palette.ALARM}
     return palette.marker(-1, 0, "−1", palette.NEUTRAL, "critical point", "bottom left", hoverinfo="skip") | {
         "marker": {"color": palette.ALARM, "size": 10, "symbol": "cross-thin", "line": cross}

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from simc_core.figures import palette
-from simc_core.figures.nyquist import VIEW_X, VIEW_Y, circle
+from simc_core.figures.nyquist import VIEW_X, VIEW_Y, circle, critical_point
 from simc_core.figures.palette import Figure, Trace
 from simc_core.robustness import Robustness
 from simc_core.simulation import TimeResponse
@@ -42,7 +42,7 @@ def band_figure(found: Robustness, nominal: np.ndarray, omega: np.ndarray, heigh
         _bundle([(L.real, L.imag) for L in curves], "changed plants"),
         palette.line(worst.real, worst.imag, "worst", palette.ALARM, "dash", 2.0, hoverinfo="skip"),
         palette.line(nominal.real, nominal.imag, "nominal", palette.Y, "solid", 2.2, hoverinfo="skip"),
-        palette.marker(-1, 0, "−1", palette.NEUTRAL, "critical point", "bottom left", hoverinfo="skip"),
+        critical_point(),
     ]
     if found.worst.stable:
         x, y = circle(-1.0, 1 / found.worst.Ms)
