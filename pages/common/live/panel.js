@@ -193,9 +193,17 @@ function axis(side, { label, log }, theme, scale) {
     grid: { stroke: theme.grid, width: 1, ...(log && { filter: (u, ticks) => ticks.map((v) => (v !== null && isDecade(v, u.scales[side]) ? v : null)) }) },
     ticks: { stroke: theme.grid, width: 1, size: 4 },
     ...(log
-      ? { filter: (u, ticks) => ticks, values: (u, ticks) => ticks.map((v) => (v === null || !isDecade(v, u.scales[side]) ? "" : text(v))) }
+      ? { splits: (u, index, low, high) => logTicks(low, high), filter: (u, ticks) => ticks, values: (u, ticks) => ticks.map((v) => (v === null || !isDecade(v, u.scales[side]) ? "" : text(v))) }
       : { incrs: STEPS, space: (side === "x" ? 50 : 28) * scale, values: (u, ticks) => ticks.map((v) => text(v)) }),
   };
+}
+
+/** 1 to 9 of every decade within the limits; uPlot counts on from the lower one, round or not. */
+function logTicks(low, high) {
+  const ticks = [];
+  for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e++)
+    for (let m = 1; m < 10; m++) ticks.push(Number(`${m}e${e}`));
+  return ticks.filter((v) => v >= low && v <= high);
 }
 
 /** The curve on a pen that knows moveTo and lineTo, in pixels of the canvas, or of the page. */

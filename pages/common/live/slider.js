@@ -76,7 +76,7 @@ class Slider {
   /** What the controller's settings are there; exact: all digits on hover. */
   tell(settings, exact) {
     this.settings.innerHTML = Object.entries(settings)
-      .map(([name, value]) => `<span title="${exact ? value : ""}">${SYMBOLS[name] ?? name} <b>${text(value)}</b></span>`).join("");
+      .map(([name, value]) => `<span title="${exact ? value : ""}">${typeset(name)} <b>${text(value)}</b></span>`).join("");
   }
 
   move(tau_c) {
@@ -121,4 +121,8 @@ class Slider {
   }
 }
 
-const SYMBOLS = { tau_I: "τI", tau_D: "τD", tau_F: "τF", K_I: "KI" };
+/** Kc, tau_I, K_I as HTML: the letter, its index below. */
+function typeset(name) {
+  const [letter, index] = name.includes("_") ? name.split("_") : [name[0], name.slice(1)];
+  return `${letter === "tau" ? "τ" : letter}<sub>${index}</sub>`;
+}
