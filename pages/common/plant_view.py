@@ -8,6 +8,7 @@ from simc_core.notation import latex, latex_number
 from simc_core.plant_step import plant_step
 
 GAINS = ("k", "k'", "k''", "k'''", "k''''")
+SIZES = ((7, r"\tiny"), (5, r"\scriptsize"), (4, r"\footnotesize"))  # from this many different factors on
 SHOWN_ROOTS = 12
 HEIGHT, TALL = 280, 360  # px
 
@@ -27,7 +28,8 @@ def facts(plant: Plant) -> None:
 
 def size(plant: Plant) -> str:
     """The LaTeX size at which the fraction of a long plant still fits a column."""
-    return r"\footnotesize" if len(plant.factored.den) > 4 else ""
+    different = len({tuple(row) for row in plant.factored.den.tolist()})
+    return next((size for least, size in SIZES if different >= least), "")
 
 
 def figures(plant: Plant) -> None:
