@@ -134,7 +134,12 @@ def test_frequency_response_is_the_block_diagram():
         assert value == pytest.approx(expected, rel=1e-12)
 
 
-@pytest.mark.parametrize("omega", [[0.0], [-1.0], [math.nan], [[1.0, 2.0]]])
-def test_frequencies_must_be_positive(omega):
-    with pytest.raises(InvalidParameter, match="omega must be"):
+POSITIVE, ROW = "omega must be positive", "omega must be a list of 1 to"
+
+
+@pytest.mark.parametrize(
+    ("omega", "says"), [([0.0], POSITIVE), ([-1.0], POSITIVE), ([math.nan], POSITIVE), ([[1.0, 2.0]], ROW)]
+)
+def test_frequencies_must_be_a_list_of_positive_numbers(omega, says):
+    with pytest.raises(InvalidParameter, match=says):
         frequency_response(Loop(Plant(1, 1), IController(0.5)), omega)
