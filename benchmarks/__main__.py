@@ -40,7 +40,7 @@ def main() -> None:
     pin()
     rows = []
     print(
-        "| case | new plant, ms | retuned, ms | Pade(5) | Pade(10) | ratios to Pade(10) | errors of y, Pade(5), (10) |"
+        "| case | new plant, ms | retuned, ms | Pade(5) | Pade(10) | ratios to Pade(10) | errors of y, both |"
     )
     print("|---|---|---|---|---|---|---|")
     for name, loop in CASES.items():
