@@ -39,9 +39,7 @@ def main() -> None:
     """Print the table and write the JSON."""
     pin()
     rows = []
-    print(
-        "| case | new plant, ms | retuned, ms | Pade(5) | Pade(10) | ratios to Pade(10) | errors of y, both |"
-    )
+    print("| case | new plant, ms | retuned, ms | Pade(5) | Pade(10) | ratios to Pade(10) | errors of y, both |")
     print("|---|---|---|---|---|---|---|")
     for name, loop in CASES.items():
         t_end = HORIZONS.get(name) or times(loop, Scenario())[1]
