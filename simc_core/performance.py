@@ -61,8 +61,8 @@ def performance(loop: Loop) -> Performance:
     if not course.at_rest[0]:
         reached = course.begin[-1] + course.length[-1]
         raise NotStable(f"the loop must come to rest within {reached:.3g}, got one too close to its stability limit")
-    ends = course.coefficients[-1, 0].sum(axis=-1)
-    largest = np.max(np.abs(course.coefficients[:, 0].sum(axis=-1)), axis=0)
+    ends = course.coefficients[0, :, -1].sum(axis=-1)
+    largest = np.max(np.abs(course.coefficients[0].sum(axis=-1)), axis=1)
     for name, offset, size in zip(("set-point", "load"), np.array([1.0, 0.0]) - ends, largest, strict=True):
         if abs(offset) > OFFSET * max(size, 1e-300):
             raise NotStable(f"IAE needs a loop that settles without offset, got {offset:.4g} after a {name} step")
@@ -77,8 +77,8 @@ def both_steps(course: Course) -> Steps:
         np.concatenate([course.owner, course.owner + n]),
         np.tile(course.begin, 2),
         np.tile(course.length, 2),
-        np.concatenate([c[:, 0, 0], c[:, 0, 1]]),
-        np.concatenate([c[:, 1, 0], c[:, 1, 1]]),
+        c[0].reshape(2 * m, -1),
+        c[1].reshape(2 * m, -1),
         np.concatenate([course.first[:-1], course.first[:-1] + m]),
         np.repeat([1.0, 0.0], n),
     )

@@ -4,10 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
 from simc_core.simulation.elements import TO_CHEBYSHEV, P
-from simc_core.simulation.pieces import NEAR, Pieces
+from simc_core.simulation.pieces import NEAR, Pieces, chebyshev_basis
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -27,7 +26,7 @@ class Stretch:
 class Course:
     """Unit step responses of n tunings. Piece j belongs to tuning owner[j]; pieces in order of owner and time.
 
-    begin, length: (m,).   coefficients: (m, 2, 2, p), Chebyshev: y, u for steps of r, d.   first: (n + 1,), where the
+    begin, length: (m,).   coefficients: (2, 2, m, P), Chebyshev: y, u for steps of r, d.   first: (n + 1,), where the
     pieces of each tuning begin.   at_rest: (n,), whether it came to rest.
     """
 
@@ -41,8 +40,10 @@ class Course:
     def pieces(self, i: int) -> Pieces:
         """One tuning: values [y, u] x [r, d]."""
         own = slice(self.first[i], self.first[i + 1])
-        end = self.begin[own][-1] + self.length[own][-1]
-        return Pieces(np.append(self.begin[own], end), self.coefficients[own].transpose(0, 3, 1, 2))
+        begin, length = self.begin[own], self.length[own]
+        return Pieces(
+            np.concatenate([begin, begin[-1:] + length[-1:]]), self.coefficients[:, :, own].transpose(2, 3, 0, 1)
+        )
 
     def __call__(self, t: np.ndarray) -> np.ndarray:
         """y, u at t (q,), shape (n, 2, 2, q); zero before 0, right-hand limits at jumps, the last value after the end.
@@ -62,7 +63,8 @@ class Course:
             j = same[0]
             points = slice(low[j], high[j])
             x = np.clip(2 * (t[points] - begin[j]) / self.length[j] - 1, -1.0, 1.0)
-            found[self.owner[same], :, :, points] = self.coefficients[same] @ chebyshev.chebvander(x, P - 1).T
+            values = self.coefficients[:, :, same] @ chebyshev_basis(x)
+            found[self.owner[same], :, :, points] = values.transpose(2, 0, 1, 3)
         return found
 
 
@@ -78,8 +80,9 @@ def course(stretches: Sequence[Stretch], at_rest: Sequence[bool]) -> Course:
             values.append(stretch.values[:, e * P : (e + 1) * P])
     owner = np.array(owner)
     order = np.argsort(owner, kind="stable") if n > 1 else slice(None)
-    coefficients = (TO_CHEBYSHEV @ np.concatenate(values)[order]).transpose(0, 2, 1).reshape(-1, 2, 2, P)
-    coefficients[:, 1, 1, 0] -= 1.0  # u = z - d
+    nodal = np.concatenate(values)[order].transpose(2, 0, 1).reshape(2, 2, -1, P)
+    coefficients = nodal @ TO_CHEBYSHEV.T
+    coefficients[1, 1, :, 0] -= 1.0  # u = z - d
     owner = owner[order]
     first = np.searchsorted(owner, np.arange(n + 1))
     return Course(owner, np.array(begin)[order], np.array(length)[order], coefficients, first, np.array(at_rest))

@@ -85,7 +85,7 @@ def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
     starts, t_end = _times(loop, scenario, heights)
     pieces = steps_of(loop).run(t_end)
     t, inputs, outputs = superposed(pieces, heights, starts, t_end, scenario)
-    return NestedResponse(t, inputs[0], inputs[1:], outputs[:, :N].T, outputs[:, N:].T)
+    return NestedResponse(t, inputs[0], inputs[1:], outputs[:N], outputs[N:])
 
 
 def time_scale(loop: NestedLoops) -> float:

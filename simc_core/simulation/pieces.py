@@ -7,49 +7,62 @@ from itertools import pairwise
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from simc_core.simulation.elements import P
+
 TINY = 1e-300  # to the left of 0
 NEAR = 1e-12  # relative to t: an instant this close below an edge is the edge, where the right-hand limit holds
+ENDS = chebyshev.chebvander(np.array([-1.0, 1.0]), P - 1)  # coefficients -> values at the left and the right end
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pieces:
-    """edges: (m + 1,) increasing from 0.   coefficients: (m, p, ...), Chebyshev, on each [edges[i], edges[i + 1]]."""
+    """edges: (m + 1,) increasing from 0.   coefficients: (m, P, ...), Chebyshev, on each [edges[i], edges[i + 1]]."""
 
     edges: np.ndarray
     coefficients: np.ndarray
 
-    def __call__(self, t, left=()) -> np.ndarray:
+    def __call__(self, t, left=None) -> np.ndarray:
         """Values at t (n,), shape (n, ...); zero before 0, the last value after the end.
 
-        Right-hand limits at edges; left-hand ones where the indices `left` say so, for t in increasing order.
+        Right-hand limits at edges, left-hand ones where `left` (n,) says so. One matrix product for each run of
+        instants in one piece.
         """
         t = np.asarray(t, dtype=float)
-        if t.size > 1 and np.any(np.diff(t) < 0):
-            order = np.argsort(t)
-            values = np.empty((len(t), *self.coefficients.shape[2:]))
-            values[order] = self(t[order])
-            return values
-        degree, shape = self.coefficients.shape[1], self.coefficients.shape[2:]
         seen = t * (1 + NEAR)
-        if len(left):
+        if left is not None:
             seen[left] = t[left] * (1 - NEAR) - TINY
-        at = np.searchsorted(self.edges, seen, side="right") - 1
-        piece = np.clip(at, 0, len(self.coefficients) - 1)
-        begin = self.edges[piece]
-        x = np.clip(2 * (t - begin) / (self.edges[piece + 1] - begin) - 1, -1.0, 1.0)
-        basis, flat = chebyshev.chebvander(x, degree - 1), self.coefficients.reshape(-1, degree, math.prod(shape))
-        values = np.empty((len(t), math.prod(shape)))
-        cuts = [0, *(np.flatnonzero(np.diff(piece)) + 1).tolist(), len(t)]
+        m, _, *shape = self.coefficients.shape
+        at = np.minimum(np.searchsorted(self.edges, seen, side="right") - 1, m - 1)
+        piece = np.maximum(at, 0)
+        x = (t - self.edges[piece]) * (2 / (self.edges[1:] - self.edges[:-1]))[piece] - 1
+        basis = chebyshev_basis(np.minimum(np.maximum(x, -1.0), 1.0))
+        rows = self.coefficients.reshape(m, P, math.prod(shape)).transpose(0, 2, 1)
+        values = np.zeros((rows.shape[1], len(t)))
+        cuts = [0, *(np.flatnonzero(at[1:] != at[:-1]) + 1).tolist(), len(t)]
         for low, high in pairwise(cuts) if len(t) else ():
-            np.matmul(basis[low:high], flat[piece[low]], out=values[low:high])
-        values[at < 0] = 0.0
-        return values.reshape(len(t), *shape)
-
-    def of_source(self, i: int) -> "Pieces":
-        """Where values are signals x sources: the responses to one of the sources."""
-        return Pieces(self.edges, self.coefficients[..., i])
+            if at[low] >= 0:
+                np.matmul(rows[at[low]], basis[:, low:high], out=values[:, low:high])
+        return values.T.reshape(len(t), *shape)
 
     def ends(self) -> tuple[np.ndarray, np.ndarray]:
         """Values at the left and at the right end of each piece, (m, ...) both."""
-        signs = (-1.0) ** np.arange(self.coefficients.shape[1])
-        return np.tensordot(self.coefficients, signs, (1, 0)), self.coefficients.sum(axis=1)
+        found, shape = ENDS @ self._flat(), self.coefficients.shape[2:]
+        return found[:, 0].reshape(-1, *shape), found[:, 1].reshape(-1, *shape)
+
+    def _flat(self) -> np.ndarray:
+        """Coefficients with all signals in one axis, (m, P, signals)."""
+        m, _, *shape = self.coefficients.shape
+        return self.coefficients.reshape(m, P, math.prod(shape))
+
+
+def chebyshev_basis(x: np.ndarray) -> np.ndarray:
+    """T_0 .. T_{P-1} at x (n,), shape (P, n), by T_{m+k} = 2 T_m T_k - T_{m-k} for k = 1 .. m at once, m = 1, 2, 4 ..."""
+    T = np.empty((P, len(x)))
+    T[0], T[1], m = 1.0, x, 1
+    while m < P - 1:
+        k = min(m, P - 1 - m)
+        block = T[m + 1 : m + k + 1]
+        np.multiply(T[1 : k + 1], 2 * T[m], out=block)
+        block -= T[m - k : m][::-1]
+        m *= 2
+    return T

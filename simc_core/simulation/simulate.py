@@ -28,8 +28,8 @@ def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
         inputs = Inputs(scenario.setpoint, scenario.disturbance, begins, t_end)
         return on_grid(actuated(loop, scenario.actuation, inputs), inputs, scenario.points, scenario.t)
     heights, starts = (scenario.setpoint, scenario.disturbance), (0.0, begins)
-    t, (r, d), outputs = superposed(unit_steps(loop, t_end), heights, starts, t_end, scenario)
-    return TimeResponse(t, r, d, outputs[:, 0], outputs[:, 1])
+    t, inputs, outputs = superposed(unit_steps(loop, t_end), heights, starts, t_end, scenario)
+    return TimeResponse(t, *inputs, *outputs)
 
 
 @lru_cache(maxsize=32)  # one design is simulated and measured, and both begin here

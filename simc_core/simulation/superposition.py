@@ -15,23 +15,31 @@ MOST_JUMPS = 400
 def superposed(
     pieces: Pieces, heights: Sequence[float], starts: Sequence[float], t_end: float, scenario: Scenario
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """t (n,), inputs (sources, n), outputs (n, signals).
+    """t (n,), inputs (sources, n), outputs (signals, n).
 
     pieces: values signals x sources, unit steps at t = 0. Instants of the scenario, or its number of points up to
     t_end; there each jump is two instants, the first with the left-hand limits.
     """
+    used = [i for i, height in enumerate(heights) if height]
     if scenario.t is not None:
-        t, left = scenario.t, np.zeros(0, dtype=int)
+        t, left = scenario.t, np.zeros(len(scenario.t), dtype=bool)
     else:
-        used = [i for i, height in enumerate(heights) if height]
-        jumps = np.concatenate([starts, *(jump_times(pieces, i) + starts[i] for i in used)])
+        jumping = jump_times(pieces)
+        jumps = np.concatenate([starts, *(jumping[i] + starts[i] for i in used)])
         t, left = doubled(np.linspace(0.0, t_end, scenario.points), np.unique(jumps[jumps <= t_end])[:MOST_JUMPS])
     inputs = np.array([held(t, start, height) for start, height in zip(starts, heights, strict=True)])
-    outputs = np.zeros((len(t), pieces.coefficients.shape[2]))
-    for i, (start, height) in enumerate(zip(starts, heights, strict=True)):
-        if height:
-            outputs += height * pieces.of_source(i)(t - start, left)
-        inputs[i, left[t[left] == start]] = 0.0
+    for source, start in zip(inputs, starts, strict=True):
+        source[left & (t == start)] = 0.0
+    outputs = np.zeros((pieces.coefficients.shape[2], len(t)))
+    if used:  # one row of instants for all sources, each from where it begins
+        first = np.searchsorted(t, starts).tolist()
+        since = np.concatenate([t[first[i] :] - starts[i] for i in used])
+        values = pieces(since, np.concatenate([left[first[i] :] for i in used]))
+        begin = 0
+        for i in used:
+            end = begin + len(t) - first[i]
+            outputs[:, first[i] :] += heights[i] * values[begin:end, :, i].T
+            begin = end
     return t, inputs, outputs
 
 
@@ -41,19 +49,20 @@ def held(t: np.ndarray, begins: float, height: float) -> np.ndarray:
 
 
 def doubled(t: np.ndarray, jumps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """t with each of `jumps` in it twice, and the indices of the first of the two."""
-    grid = np.sort(np.concatenate([t, jumps, jumps]))
+    """t with each of `jumps` in it twice, and which are the first of the two."""
+    grid = np.sort(np.concatenate([t, jumps, jumps]), kind="stable")  # which knows sorted runs
     third = np.zeros(len(grid), dtype=bool)
     third[2:] = grid[2:] == grid[:-2]  # t had this instant already
     grid = grid[~third]
-    return grid, np.flatnonzero(grid[1:] == grid[:-1])
+    left = np.zeros(len(grid), dtype=bool)
+    left[:-1] = grid[1:] == grid[:-1]
+    return grid, left
 
 
-def jump_times(pieces: Pieces, source: int) -> np.ndarray:
-    """Where a signal jumps under this input, t = 0 included."""
-    coefficients = pieces.coefficients[..., source]
-    right = coefficients.sum(axis=1)
-    size = (-1.0) ** np.arange(coefficients.shape[1]) @ coefficients
-    size[1:] -= right[:-1]
+def jump_times(pieces: Pieces) -> list[np.ndarray]:
+    """For each source, where a signal jumps, t = 0 included."""
+    size, right = pieces.ends()
     scale = np.abs(right).max(axis=0) + math.ulp(0.0)
-    return pieces.edges[:-1][(np.abs(size) > JUMP * scale).any(axis=1)]
+    size[1:] -= right[:-1]
+    jumping = (np.abs(size) > JUMP * scale).any(axis=1)
+    return [pieces.edges[:-1][each] for each in jumping.T]
