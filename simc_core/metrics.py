@@ -2,7 +2,8 @@
 
     IAE = int |e|    ISE = int e^2    ITAE = int t |e|    TV = sum |change of u|, jumps included    e = r - y
 
-IAE is the total variation of int e, ITAE that of int t e: both turn where e has a zero, as u turns where u' has one.
+With s the sign of e, int |e| = sum s dE over the parts between its zeros, E = int e: E counts with s where a piece ends
+and with 2 s at each zero, s the sign in front of it. So do int t e for ITAE, and u with the sign of u' for TV.
 """
 
 from dataclasses import dataclass
@@ -10,18 +11,23 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.piece_zeros import DEGREES, SLOPE, Places, zeros
+from simc_core.piece_zeros import SLOPE, Crossings, Turns, crossings
 from simc_core.simulation.elements import P
+from simc_core.simulation.pieces import ENDS
 
-NOISE = 1e-11  # of the largest value; a signal this small has come to rest, its signs are rounding
-SETTLING, RISE = 0.02, (0.1, 0.9)
+NOISE = 1e-11  # of the largest value; what changes less in a piece has come to rest, its signs are rounding
+LEVELS = np.array(  # the end, 10 % and 90 %, the band of 2 %; of a load step in units of its peak
+    [[1.0, 0.1, 0.9, 0.98, 1.02], [0.0, np.nan, np.nan, -0.02, 0.02]]
+)[:, :, None]
 LEAST_OVERSHOOT = 1e-10  # less than that is rounding
+TINY = 1e-300
 
-SIGNS = (-1.0) ** DEGREES  # T_k(-1)
-INTEGRAL = chebyshev.chebint(np.eye(P), lbnd=-1, axis=1)  # -> those of int_{-1}^x f
-MOMENT = chebyshev.chebint(
-    np.array([np.pad(chebyshev.chebmulx(row), (0, P + 1))[: P + 1] for row in np.eye(P)]), lbnd=-1, axis=1
-)  # -> those of int_{-1}^x x f
+
+def _integrals() -> np.ndarray:
+    """int_{-1}^x f and int_{-1}^x x f: column of coefficients -> two columns of P + 2, one below the other."""
+    times_x = np.array([np.pad(chebyshev.chebmulx(row), (0, P + 1))[: P + 1] for row in np.eye(P)])
+    whole = chebyshev.chebint(np.eye(P, P + 1), lbnd=-1, axis=1)
+    return np.concatenate([whole, chebyshev.chebint(times_x, lbnd=-1, axis=1)], axis=1).T
 
 
 def _products() -> np.ndarray:
@@ -31,22 +37,22 @@ def _products() -> np.ndarray:
     return values.T @ (weights[:, None] * values)
 
 
-SQUARE = _products()
+INTEGRALS, SQUARE = _integrals(), _products()
+WHOLE = INTEGRALS.reshape(2, P + 2, P).sum(axis=1)  # up to x = 1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Steps:
     """n unit step responses as pieces, in order of owner and time; each has at least one.
 
-    owner: (m,).   begin, length: (m,).   y, u: (m, P), Chebyshev.   first: (n,), the first piece of each.
+    owner: (m,).   begin, length: (m,).   y_and_u: (2, m, P), Chebyshev.   first: (n,), the first piece of each.
     target: (n,), 1 for a step of the set point, 0 for one of the load.
     """
 
     owner: np.ndarray
     begin: np.ndarray
     length: np.ndarray
-    y: np.ndarray
-    u: np.ndarray
+    y_and_u: np.ndarray
     first: np.ndarray
     target: np.ndarray
 
@@ -54,11 +60,15 @@ class Steps:
         """Instants at the places x in [-1, 1] of pieces."""
         return self.begin[piece] + self.length[piece] / 2 * (x + 1)
 
-    def before(self, right: np.ndarray, start) -> np.ndarray:
-        """Values at the end of the piece before, from those at the right ends; `start` before t = 0."""
-        found = np.concatenate([[0.0], right[:-1]])
-        found[self.first] = start
+    def before(self, right: np.ndarray) -> np.ndarray:
+        """Values at the end of the piece before, from those at the right ends (..., m); 0 before t = 0."""
+        found = np.empty_like(right)
+        found[..., 1:], found[..., self.first] = right[..., :-1], 0.0
         return found
+
+    def alive(self, change: np.ndarray, size: np.ndarray) -> np.ndarray:
+        """Whether what changes in a piece is more than rounding of the largest value of the response, (..., m) all."""
+        return change > NOISE * np.maximum.reduceat(size, self.first, axis=-1)[..., self.owner]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -78,114 +88,74 @@ class Measures:
 
 def measures(steps: Steps, with_times: bool = True) -> Measures:
     """All metrics of all responses; with_times: False leaves rise and settling times at nan."""
-    m, half = len(steps.owner), steps.length / 2
-    slopes = np.concatenate([steps.y @ SLOPE, steps.u @ SLOPE])
-    turns = zeros(slopes, _alive(slopes, steps))
-    of_y, of_u = turns[turns.row < m], turns[turns.row >= m]
-    of_u = Places(of_u.row - m, of_u.x, of_u.basis)
-    peak, peak_time, opposite = _extremes(steps, of_y)
-    e = -steps.y
-    e[:, 0] += steps.target[steps.owner]
-    levels = _levels(steps, peak) if with_times else np.zeros((0, len(peak)))
-    series = np.concatenate([e, *[steps.y] * len(levels)])
-    series[m:, 0] -= levels[:, steps.owner].ravel()
-    wanted = np.concatenate([_alive(e, steps), np.ones(len(series) - m, dtype=bool)])
-    found = zeros(series, wanted, of_y)
-    of_e, crossed = found[found.row < m], found[found.row >= m]
-    rise = settling = np.full(len(peak), np.nan)
-    if with_times:
-        rise, settling = _times(steps, series[m:], levels, crossed.row - m, crossed.x)
-    IAE, ITAE = _absolute_integrals(steps, e, of_e)
-    left, right = steps.u @ SIGNS, steps.u.sum(axis=1)
-    TV = _variation(of_u.row, of_u.of(steps.u), left, right) + np.abs(left - steps.before(right, 0.0))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        overshoot = np.where(steps.target, peak - 1, np.where(peak, opposite / np.abs(peak), 0.0))
-    return Measures(
-        *(np.add.reduceat(each, steps.first) for each in (IAE, half * ((e @ SQUARE) * e).sum(axis=1), ITAE, TV)),
-        np.where(overshoot > LEAST_OVERSHOOT, overshoot, 0.0),
-        peak,
-        peak_time,
-        rise,
-        settling,
-    )
+    m, rows = len(steps.owner), steps.y_and_u.reshape(-1, P)
+    left, right = ENDS @ rows.T
+    size = np.abs(steps.y_and_u)
+    change = np.add.reduce(size[:, :, 1:], axis=2)
+    turning = np.where(steps.alive(change, change + size[:, :, 0]), 0.0, -np.inf)
+    turns = crossings(rows @ SLOPE, turning.reshape(1, -1))
+    values, k = turns.of(rows), turns.row.searchsorted(m)  # k of y, then those of u
+    TV = turns.variation(left, right, values)[m:] + np.abs(left[m:] - steps.before(right[m:]))
+    turns_of_y = Turns(turns.row[:k], turns.interval[:k], turns.x[:k], values[:k])
+    peak, peak_time, overshoot = _extremes(steps, left[:m], right[:m], turns_of_y)
+
+    y, minus_e = rows[:m], rows[:m].copy()
+    minus_e[:, 0] -= steps.target[steps.owner]
+    error = change[0] + np.abs(minus_e[:, 0])
+    levels = _levels(steps, peak)[: None if with_times else 1, steps.owner]
+    levels[0, ~steps.alive(error, error)] = -np.inf
+    found = crossings(y, levels, turns_of_y)
+    IAE, ITAE = _absolute_integrals(steps, minus_e, found.of_first_level())
+    ISE = steps.length / 2 * np.add.reduce((minus_e @ SQUARE) * minus_e, axis=1)
+    rise, settling = _times(steps, found, levels, right[:m]) if with_times else np.full((2, len(peak)), np.nan)
+    integrals = np.add.reduceat([IAE, ISE, ITAE, TV], steps.first, axis=1)
+    return Measures(*integrals, overshoot, peak, peak_time, rise, settling)
 
 
-def _alive(series: np.ndarray, steps: Steps) -> np.ndarray:
-    """Which rows, one for each piece or several such lists one after the other, are more than rounding."""
-    total = np.abs(series).sum(axis=1).reshape(-1, len(steps.owner))
-    return (total > NOISE * np.maximum.reduceat(total, steps.first, axis=1)[:, steps.owner]).ravel()
-
-
-def _variation(piece: np.ndarray, turning: np.ndarray, left: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Total variation in each piece of a function that turns at `turning`, values in order of `piece`."""
-    found = np.abs(right - left)
-    if not len(piece):
-        return found
-    found[piece] = 0.0
-    new = np.concatenate([[True], piece[1:] != piece[:-1]])
-    old = np.concatenate([new[1:], [True]])
-    steps = np.abs(turning - np.where(new, left[piece], np.concatenate([[0.0], turning[:-1]])))
-    np.add.at(found, piece, steps)
-    np.add.at(found, piece[old], np.abs(right[piece[old]] - turning[old]))
-    return found
-
-
-def _absolute_integrals(steps: Steps, e: np.ndarray, at: Places) -> tuple[np.ndarray, np.ndarray]:
-    """int |e| and int t |e| of each piece; at: zeros of e."""
-    half, piece = steps.length / 2, at.row
-    middle = steps.begin + half
-    once, twice = half * e.dot(INTEGRAL.sum(axis=1)), half**2 * e.dot(MOMENT.sum(axis=1))
-    angle = np.arccos(at.x)[:, None]
-    first = half[piece] * ((e[piece] @ INTEGRAL) * np.cos(np.arange(P + 1) * angle)).sum(axis=1)
-    moment = half[piece] ** 2 * ((e[piece] @ MOMENT) * np.cos(np.arange(P + 2) * angle)).sum(axis=1)
-    zero = np.zeros(len(e))
-    return (
-        _variation(piece, first, zero, once),
-        _variation(piece, middle[piece] * first + moment, zero, middle * once + twice),
-    )
-
-
-def _extremes(steps: Steps, at: Places) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """peak: largest y of a set-point step, y of largest size of a load step; the first time it is reached; and how far
-    y goes to the other side. at: where y turns.
+def _extremes(
+    steps: Steps, left: np.ndarray, right: np.ndarray, turns: Turns
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """peak: largest y of a set-point step, y of largest size of a load step; the first time it is reached; and the
+    overshoot. left, right: y at the ends.
     """
-    left, right = steps.y @ SIGNS, steps.y.sum(axis=1)
-    owner = np.concatenate([steps.owner, steps.owner, steps.owner[at.row]])
-    values = np.concatenate([left, right, at.of(steps.y)])
-    times = np.concatenate([steps.begin, steps.begin + steps.length, steps.time(at.row, at.x)])
-    n = len(steps.first)
+    owner = np.concatenate([steps.owner, steps.owner, steps.owner[turns.row]])
+    values = np.concatenate([left, right, turns.value])
+    times = np.concatenate([steps.begin, steps.begin + steps.length, steps.time(turns.row, turns.x)])
+    n, step = len(steps.first), steps.target != 0
     high, low, time = np.full(n, -np.inf), np.full(n, np.inf), np.full(n, np.inf)
     np.maximum.at(high, owner, values)
     np.minimum.at(low, owner, values)
-    peak = np.where((steps.target != 0) | (high >= -low), high, low)
+    peak = np.where(step | (high >= -low), high, low)
     at_peak = values == peak[owner]
     np.minimum.at(time, owner[at_peak], times[at_peak])
-    return peak, time, np.where(peak > 0, -low, high)
+    beyond = np.where(step, peak - 1, np.where(peak > 0, -low, high) / np.maximum(np.abs(peak), TINY))
+    return peak, time, np.where(beyond > LEAST_OVERSHOOT, beyond, 0.0)
 
 
 def _levels(steps: Steps, peak: np.ndarray) -> np.ndarray:
-    """10 %, 90 %, and the band of 2 % of the step, or of the load's peak, about where the response ends: (4, n)."""
-    band = SETTLING * np.where(steps.target, 1.0, np.abs(peak))
-    found = np.empty((4, len(peak)))
-    found[0], found[1], found[2], found[3] = *RISE, steps.target - band, steps.target + band
-    return found
+    """LEVELS of each response, (5, n)."""
+    return np.where(steps.target, LEVELS[0], LEVELS[1] * np.abs(peak))
 
 
-def _times(steps: Steps, shifted: np.ndarray, levels: np.ndarray, row: np.ndarray, x: np.ndarray):
-    """Rise time, nan for a load step, and settling time.
+def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: Crossings) -> tuple[np.ndarray, np.ndarray]:
+    """int |e| and int t |e| of each piece; e: (m, P), either sign."""
+    half = steps.length / 2
+    inner = np.add.reduce((INTEGRALS @ e[zeros.row].T).reshape(2, P + 2, -1) * zeros.basis, axis=1)
+    plain, moment = map(zeros.variation, (0.0, 0.0), WHOLE @ e.T, inner)  # over x
+    return half * plain, half * ((steps.begin + half) * plain + half * moment)
 
-    shifted: y less each of `levels`, one list of pieces after the other.   row, x: its zeros.
+
+def _times(steps: Steps, found: Crossings, levels: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rise time, nan for a load step, and settling time: first and last passages through `levels`.
+
+    right: y at the right ends; where the next piece begins it may jump through a level.
     """
-    m, n = len(steps.owner), len(steps.first)
-    left, right = (shifted @ SIGNS).reshape(-1, m), shifted.sum(axis=1).reshape(-1, m)
-    before = np.empty_like(right)
-    before[:, 1:], before[:, steps.first] = right[:, :-1], -levels
-    jumped = np.flatnonzero(left * before < 0)
-    kind, piece = np.divmod(np.concatenate([row, jumped]), m)
-    times = steps.time(piece, np.concatenate([x, np.full(len(jumped), -1.0)]))
-    owner, rising = steps.owner[piece], kind < 2
-    first, settling = np.full((2, n), np.inf), np.zeros(n)
-    np.minimum.at(first, (kind[rising], owner[rising]), times[rising])
-    first = np.where(np.isfinite(first), first, 0.0)
-    np.maximum.at(settling, owner[~rising], times[~rising])
-    return np.where(steps.target, first[1] - first[0], np.nan), settling
+    level, piece = np.nonzero((steps.before(right) < levels) != found.begin)
+    x = np.concatenate([found.x, np.full(len(level), -1.0)])
+    level, piece = np.concatenate([found.level, level]), np.concatenate([found.row, piece])
+    times, which = steps.time(piece, x), (level, steps.owner[piece])
+    first, last = np.full((5, len(steps.first)), np.inf), np.zeros((5, len(steps.first)))
+    np.minimum.at(first, which, times)
+    np.maximum.at(last, which, times)
+    first[first == np.inf] = 0.0
+    return np.where(steps.target, first[2] - first[1], np.nan), np.maximum(last[3], last[4])

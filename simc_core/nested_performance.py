@@ -61,10 +61,10 @@ def _(loop: NestedLoops) -> NestedPerformance:
 def _steps(edges: np.ndarray, y_and_u: np.ndarray) -> Steps:
     """Responses to r, d_1 .. d_N one after the other; y_and_u (m, P, 2, 1 + N)."""
     m, _, _, inputs = y_and_u.shape
-    y, u = (y_and_u[:, :, i].transpose(2, 0, 1).reshape(inputs * m, -1) for i in (0, 1))
+    rows = y_and_u.transpose(2, 3, 0, 1).reshape(2, inputs * m, -1)
     owner = np.repeat(np.arange(inputs), m)
     begin, length = np.tile(edges[:-1], inputs), np.tile(np.diff(edges), inputs)
-    return Steps(owner, begin, length, y, u, m * np.arange(inputs), np.array([1.0] + [0.0] * (inputs - 1)))
+    return Steps(owner, begin, length, rows, m * np.arange(inputs), np.array([1.0] + [0.0] * (inputs - 1)))
 
 
 def _to_rest(loop: NestedLoops) -> Pieces:

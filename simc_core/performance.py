@@ -61,24 +61,22 @@ def performance(loop: Loop) -> Performance:
     if not course.at_rest[0]:
         reached = course.begin[-1] + course.length[-1]
         raise NotStable(f"the loop must come to rest within {reached:.3g}, got one too close to its stability limit")
-    ends = course.coefficients[0, :, -1].sum(axis=-1)
-    largest = np.max(np.abs(course.coefficients[0].sum(axis=-1)), axis=1)
-    for name, offset, size in zip(("set-point", "load"), np.array([1.0, 0.0]) - ends, largest, strict=True):
+    right = np.add.reduce(course.coefficients[0], axis=-1)
+    offsets, largest = right[:, -1] - (1.0, 0.0), np.maximum.reduce(np.abs(right), axis=1)
+    for name, offset, size in zip(("set-point", "load"), offsets.tolist(), largest.tolist(), strict=True):
         if abs(offset) > OFFSET * max(size, 1e-300):
-            raise NotStable(f"IAE needs a loop that settles without offset, got {offset:.4g} after a {name} step")
+            raise NotStable(f"IAE needs a loop that settles without offset, got {-offset:.4g} after a {name} step")
     return Performance(*metrics_of(both_steps(course)))
 
 
 def both_steps(course: Course) -> Steps:
     """Set-point steps of all tunings, then their load steps."""
     n, m = len(course.first) - 1, len(course.owner)
-    c = course.coefficients
     return Steps(
         np.concatenate([course.owner, course.owner + n]),
-        np.tile(course.begin, 2),
-        np.tile(course.length, 2),
-        c[0].reshape(2 * m, -1),
-        c[1].reshape(2 * m, -1),
+        np.concatenate([course.begin, course.begin]),
+        np.concatenate([course.length, course.length]),
+        course.coefficients.reshape(2, 2 * m, -1),
         np.concatenate([course.first[:-1], course.first[:-1] + m]),
         np.repeat([1.0, 0.0], n),
     )
@@ -87,5 +85,5 @@ def both_steps(course: Course) -> Steps:
 def metrics_of(steps: Steps) -> tuple[StepMetrics, ...]:
     """All metrics of each response."""
     found = measures(steps)
-    columns = [getattr(found, name) for name in StepMetrics.__slots__]
-    return tuple(StepMetrics(*row) for row in np.array(columns).T.tolist())
+    columns = (getattr(found, name).tolist() for name in StepMetrics.__slots__)
+    return tuple(StepMetrics(*row) for row in zip(*columns, strict=True))

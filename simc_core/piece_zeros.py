@@ -1,7 +1,11 @@
-"""Where polynomials given by Chebyshev coefficients change sign on [-1, 1]: many at once.
+"""Where polynomials given by Chebyshev coefficients pass through levels on [-1, 1]: many at once.
 
-A series with |c_0| > sum |c_k| has no zero. The others are sampled; where one is known to turn (a maximum or minimum),
-it is looked at as well, so that no narrow lobe between two samples is lost. Brackets are polished by bracketed Newton.
+All are sampled; where one is known to turn (a maximum or minimum) it is looked at as well, so that no narrow lobe
+between two samples is lost. From the secant of its bracket x goes by Halley's steps, of third order,
+
+    x - N/(1 - N f''/(2 f')),   N = f/f'
+
+or halves the bracket, until a step is short; the next one then leaves rounding.
 """
 
 from dataclasses import dataclass
@@ -10,85 +14,121 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.simulation.elements import P
+from simc_core.simulation.pieces import chebyshev_basis
 
-SAMPLES = np.cos(np.pi * np.arange(32, -1, -1) / 32)
-NEWTON = 8
-QUADRATIC = 1e-8  # after a Newton step this small the next would be below rounding
+INTERVALS = 64
+SAMPLES = np.cos(np.pi * np.arange(INTERVALS, -1, -1) / INTERVALS)
+MOST_STEPS = 8
+SHORT = 0.1  # of the bracket; what is left behind such a step is about its third power
+FLAT = 1e-13  # of the size of a series: so near a level it begins on it, often with several derivatives
+ROUNDING = 1e-15  # of its size
 
-DEGREES = np.arange(P)
 VANDERMONDE = chebyshev.chebvander(SAMPLES, P - 1).T
 SLOPE = chebyshev.chebder(np.eye(P), axis=1) @ np.eye(P - 1, P)  # coefficients -> those of the derivative
+TAYLOR = np.concatenate([np.eye(P), SLOPE.T, (SLOPE @ SLOPE).T / 2])  # column -> those of f, f', f''/2
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Places:
-    """row: of the series.   x: in (-1, 1), in order of row and x.   basis: T_k(x), (len(x), P)."""
+class Turns:
+    """Maxima and minima of series: row, interval between two samples, x, value, (k,) each."""
 
     row: np.ndarray
+    interval: np.ndarray
     x: np.ndarray
-    basis: np.ndarray
+    value: np.ndarray
 
-    def __getitem__(self, where) -> "Places":
-        return Places(self.row[where], self.x[where], self.basis[where])
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Crossings:
+    """k places where series (R, P) pass through levels (L, R), in order of level.
+
+    level, row: which.   interval: between which samples.   x: place.   sign: of series - level in front of it.
+    basis: T_0 .. T_{P+1} next to x, (P + 2, k), for what is flat there.   begin: whether the series begin below the
+    levels, (L, R).   ends: signs of series - first level at both ends, (2, R).
+    """
+
+    level: np.ndarray
+    row: np.ndarray
+    interval: np.ndarray
+    x: np.ndarray
+    sign: np.ndarray
+    basis: np.ndarray
+    begin: np.ndarray
+    ends: np.ndarray
+
+    def of_first_level(self) -> "Crossings":
+        """Those through the first level."""
+        k = self.level.searchsorted(1)
+        along = (each[:k] for each in (self.level, self.row, self.interval, self.x, self.sign))
+        return Crossings(*along, self.basis[:, :k], self.begin[:1], self.ends)
 
     def of(self, series: np.ndarray) -> np.ndarray:
-        """Values of the series (rows, P) at these places."""
-        return (series[self.row] * self.basis).sum(axis=1)
+        """Values of other series (R, P) there."""
+        return np.add.reduce(series[self.row].T * self.basis[:P], axis=0)
+
+    def variation(self, left, right: np.ndarray, at: np.ndarray) -> np.ndarray:
+        """int |g'| for each series, (R,), where these are the zeros of g'. g: left and right (R,), at the places (k,)."""
+        found = self.ends[1] * right - self.ends[0] * left
+        np.add.at(found, self.row, 2 * self.sign * at)
+        return found
 
 
-def zeros(series: np.ndarray, wanted: np.ndarray, turning: Places | None = None) -> Places:
-    """Sign changes within the series that are `wanted`; turning: where some of them turn."""
-    size = np.abs(series)
-    able = np.flatnonzero(wanted & (2 * size[:, 0] <= size.sum(axis=1)))
-    values = series[able] @ VANDERMONDE
-    below = values < 0
-    position, at = np.nonzero(below[:, 1:] != below[:, :-1])
-    found = able[position], SAMPLES[at], SAMPLES[at + 1], values[position, at], values[position, at + 1]
-    if turning is not None and len(turning.x) and len(able):
-        found = _with_lobes(series, able, values, turning, found)
-    row, low, high, first, last = found
-    return _polished(series[row], row, low, high, first, last)
+def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None) -> Crossings:
+    """Of the series (R, P) through levels (L, R), -inf or nan for none.   turns: of the series."""
+    values, size = series @ VANDERMONDE, np.add.reduce(np.abs(series), axis=1)
+    below = values < levels[:, :, None]
+    flat = np.abs(values[:, 0] - levels) <= FLAT * size
+    np.copyto(below[:, :, 0], below[:, :, 1], where=flat)
+    where, interval = np.divmod(np.flatnonzero(below[:, :, 1:] != below[:, :, :-1]), INTERVALS)
+    level, row = np.divmod(where, len(series))
+    first, last = values[row, interval], values[row, interval + 1]
+    found = level, row, interval, SAMPLES[interval], SAMPLES[interval + 1], first, last
+    if turns is not None:
+        found = _with_lobes(found, turns, values, below, levels)
+    level, row, interval, low, high, first, last = found
+    own, through = series[row].T, levels[level, row]
+    own[0] -= through
+    x, basis = _polished(own, ROUNDING * size[row], low, high, first - through, last - through)
+    sign, ends = 1.0 - 2.0 * (first < through), 1.0 - 2.0 * below[0, :, ::INTERVALS].T
+    return Crossings(level, row, interval, x, sign, basis, below[:, :, 0], ends)
 
 
-def _with_lobes(series, able, values, turning: Places, brackets):
-    """Brackets on both sides of a turning point whose sign is not that of the samples around it."""
-    position = np.minimum(np.searchsorted(able, turning.row), len(able) - 1)
-    known = able[position] == turning.row
-    turning, position = turning[known], position[known]
-    middle, x = turning.of(series), turning.x
-    at = np.clip(np.searchsorted(SAMPLES, x), 1, len(SAMPLES) - 1)
-    before, after = values[position, at - 1], values[position, at]
-    lobe = ((before < 0) == (after < 0)) & ((middle < 0) != (before < 0))
+def _with_lobes(found, turns: Turns, values: np.ndarray, below: np.ndarray, levels: np.ndarray):
+    """Brackets on both sides of a turn that is not on the side of a level where the samples around it are."""
+    before = below[:, turns.row, turns.interval]
+    lobe = (before == below[:, turns.row, turns.interval + 1]) & (before != (turns.value < levels[:, turns.row]))
     if not lobe.any():
-        return brackets
-    row, x, middle, before, after, at = (each[lobe] for each in (turning.row, x, middle, before, after, at))
-    lefts, rights = (row, SAMPLES[at - 1], x, before, middle), (row, x, SAMPLES[at], middle, after)
-    joined = [np.concatenate(each) for each in zip(brackets, lefts, rights, strict=True)]
-    order = np.lexsort((joined[1], joined[0]))
+        return found
+    level, at = np.nonzero(lobe)
+    row, interval, x, value = turns.row[at], turns.interval[at], turns.x[at], turns.value[at]
+    there = level, row, interval, SAMPLES[interval], x, values[row, interval], value
+    back = level, row, interval, x, SAMPLES[interval + 1], value, values[row, interval + 1]
+    joined = [np.concatenate(each) for each in zip(found, there, back, strict=True)]
+    order = np.argsort(joined[0], kind="stable")
     return [each[order] for each in joined]
 
 
-def _polished(own: np.ndarray, row: np.ndarray, low, high, first, last) -> Places:
-    """Zeros of the series `own` between low and high, where their values are first and last."""
-    slope, below = own @ SLOPE, first < 0
-    x = low - first * (high - low) / (last - first)
+def _polished(own: np.ndarray, rounding, low, high, first, last) -> tuple[np.ndarray, np.ndarray]:
+    """Zeros of columns (P, k) between low and high, where they are first and last: x, and the basis next to it."""
+    parts, width, below = (TAYLOR @ own).reshape(3, P, -1), high - low, first < 0
+    x, short = low - first * width / (last - first), SHORT * width
     with np.errstate(divide="ignore", invalid="ignore"):
-        for _ in range(NEWTON if len(x) else 0):
-            basis = _basis(x)
-            f = (own * basis).sum(axis=1)
+        for _ in range(MOST_STEPS):
+            f, following = _step(x, parts, chebyshev_basis(x))
+            near = (np.abs(following - x) <= short) | (np.abs(f) <= rounding)
+            if near.all():
+                break
             same = (f < 0) == below
             low, high = np.where(same, x, low), np.where(same, high, x)
-            newton = x - f / (slope * basis).sum(axis=1)
-            inside = (newton >= low) & (newton <= high)
-            following = np.where(inside, newton, np.where(f == 0, x, (low + high) / 2))
-            moved, x = np.abs(following - x), following
-            if moved.max() <= QUADRATIC:
-                break
-    return Places(row, x, _basis(x))
+            inside = near | ((following >= low) & (following <= high))
+            x = np.fmin(np.fmax(np.where(inside, following, (low + high) / 2), low), high)
+        x = np.fmin(np.fmax(following, low), high)
+        basis = chebyshev_basis(x, P + 2)
+        return np.fmin(np.fmax(_step(x, parts, basis[:P])[1], low), high), basis
 
 
-def _basis(x: np.ndarray) -> np.ndarray:
-    """T_k(x) = Re (x + j sqrt(1 - x^2))^k."""
-    powers = np.empty((len(x), P), dtype=complex)
-    powers[:, 0], powers[:, 1:] = 1.0, (x + 1j * np.sqrt(1 - x * x))[:, None]
-    return np.multiply.accumulate(powers, axis=1).real
+def _step(x: np.ndarray, parts: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """f at x, and Halley's step from there. parts: (3, P, k), coefficients of f, f', f''/2."""
+    f, slope, bend = np.add.reduce(parts * basis, axis=1)
+    newton = f / slope
+    return f, x - newton / (1 - newton * bend / slope)

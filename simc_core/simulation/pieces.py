@@ -55,14 +55,14 @@ class Pieces:
         return self.coefficients.reshape(m, P, math.prod(shape))
 
 
-def chebyshev_basis(x: np.ndarray) -> np.ndarray:
-    """T_0 .. T_{P-1} at x (n,), shape (P, n), by T_{m+k} = 2 T_m T_k - T_{m-k} for k = 1 .. m at once, m = 1, 2, 4 ..."""
-    T = np.empty((P, len(x)))
-    T[0], T[1], m = 1.0, x, 1
-    while m < P - 1:
-        k = min(m, P - 1 - m)
-        block = T[m + 1 : m + k + 1]
-        np.multiply(T[1 : k + 1], 2 * T[m], out=block)
-        block -= T[m - k : m][::-1]
+def chebyshev_basis(x: np.ndarray, p: int = P) -> np.ndarray:
+    """T_0 .. T_{p-1} at x (n,) in [-1, 1], shape (p, n): T_k = Re z^k, z = x + j sqrt(1 - x^2), and
+    z^{m+k} = z^m z^k for k = 1 .. m at once, m = 1, 2, 4 ...
+    """
+    powers = np.empty((p, len(x)), dtype=complex)
+    powers[0], powers[1].real, powers[1].imag, m = 1.0, x, np.sqrt(1 - x * x), 1
+    while m < p - 1:
+        k = min(m, p - 1 - m)
+        np.multiply(powers[1 : k + 1], powers[m], out=powers[m + 1 : m + k + 1])
         m *= 2
-    return T
+    return powers.real.copy()
