@@ -95,7 +95,7 @@ def measures(steps: Steps, with_times: bool = True) -> Measures:
     turning = np.where(steps.alive(change, change + size[:, :, 0]), 0.0, -np.inf)
     turns = crossings(rows @ SLOPE, turning.reshape(1, -1))
     values, k = turns.of(rows), turns.row.searchsorted(m)  # k of y, then those of u
-    TV = turns.variation(left, right, values)[m:] + np.abs(left[m:] - steps.before(right[m:]))
+    TV = turns.integral(left, right, values)[m:]
     turns_of_y = Turns(turns.row[:k], turns.interval[:k], turns.x[:k], values[:k])
     peak, peak_time, overshoot = _extremes(steps, left[:m], right[:m], turns_of_y)
 
@@ -108,7 +108,9 @@ def measures(steps: Steps, with_times: bool = True) -> Measures:
     IAE, ITAE = _absolute_integrals(steps, minus_e, found.of_first_level())
     ISE = steps.length / 2 * np.add.reduce((minus_e @ SQUARE) * minus_e, axis=1)
     rise, settling = _times(steps, found, levels, right[:m]) if with_times else np.full((2, len(peak)), np.nan)
-    integrals = np.add.reduceat([IAE, ISE, ITAE, TV], steps.first, axis=1)
+    integrals = np.abs([IAE, ISE, ITAE, TV])  # of what is not alive the sign was not asked for
+    integrals[3] += np.abs(left[m:] - steps.before(right[m:]))
+    integrals = np.add.reduceat(integrals, steps.first, axis=1)
     return Measures(*integrals, overshoot, peak, peak_time, rise, settling)
 
 
@@ -141,7 +143,7 @@ def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: Crossings) -> tuple[
     """int |e| and int t |e| of each piece; e: (m, P), either sign."""
     half = steps.length / 2
     inner = np.add.reduce((INTEGRALS @ e[zeros.row].T).reshape(2, P + 2, -1) * zeros.basis, axis=1)
-    plain, moment = map(zeros.variation, (0.0, 0.0), WHOLE @ e.T, inner)  # over x
+    plain, moment = map(zeros.integral, (0.0, 0.0), WHOLE @ e.T, inner)  # over x
     return half * plain, half * ((steps.begin + half) * plain + half * moment)
 
 

@@ -66,8 +66,11 @@ class Crossings:
         """Values of other series (R, P) there."""
         return np.add.reduce(series[self.row].T * self.basis[:P], axis=0)
 
-    def variation(self, left, right: np.ndarray, at: np.ndarray) -> np.ndarray:
-        """int |g'| for each series, (R,), where these are the zeros of g'. g: left and right (R,), at the places (k,)."""
+    def integral(self, left, right: np.ndarray, at: np.ndarray) -> np.ndarray:
+        """int s g' on each row, (R,), s the sign of the series less the first level, all of whose zeros these are.
+
+        g: left and right (R,), at the places (k,).
+        """
         found = self.ends[1] * right - self.ends[0] * left
         np.add.at(found, self.row, 2 * self.sign * at)
         return found
