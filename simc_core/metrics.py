@@ -2,8 +2,12 @@
 
     IAE = int |e|    ISE = int e^2    ITAE = int t |e|    TV = sum |change of u|, jumps included    e = r - y
 
-With s the sign of e, int |e| = sum s dE over the parts between its zeros, E = int e: E counts with s where a piece ends
-and with 2 s at each zero, s the sign in front of it. So do int t e for ITAE, and u with the sign of u' for TV.
+With s the sign of e, |e| = s e, and its integral over a piece is the sum of s (E at its end - E at its begin) over the
+parts between zeros of e, E = int e. So E counts with s at the end of the piece, with -s at its begin, and at each zero
+with 2 s, s the sign in front of it. For ITAE E is int t e; for TV it is u, and s the sign of u'.
+
+Two searches: where y and u turn, then where y passes through its end (e = 0) and the levels of the times, for which the
+peak must be known.
 """
 
 from dataclasses import dataclass
@@ -88,27 +92,27 @@ class Measures:
 
 def measures(steps: Steps, with_times: bool = True) -> Measures:
     """All metrics of all responses; with_times: False leaves rise and settling times at nan."""
-    m, rows = len(steps.owner), steps.y_and_u.reshape(-1, P)
+    m, rows = len(steps.owner), steps.y_and_u.reshape(-1, P)  # those of y, then those of u
     left, right = ENDS @ rows.T
     size = np.abs(steps.y_and_u)
     change = np.add.reduce(size[:, :, 1:], axis=2)
     turning = np.where(steps.alive(change, change + size[:, :, 0]), 0.0, -np.inf)
     turns = crossings(rows @ SLOPE, turning.reshape(1, -1))
-    values, k = turns.of(rows), turns.row.searchsorted(m)  # k of y, then those of u
+    values, k = turns.of(rows), turns.row.searchsorted(m)
     TV = turns.integral(left, right, values)[m:]
     turns_of_y = Turns(turns.row[:k], turns.interval[:k], turns.x[:k], values[:k])
     peak, peak_time, overshoot = _extremes(steps, left[:m], right[:m], turns_of_y)
 
     y, minus_e = rows[:m], rows[:m].copy()
     minus_e[:, 0] -= steps.target[steps.owner]
-    error = change[0] + np.abs(minus_e[:, 0])
+    size = change[0] + np.abs(minus_e[:, 0])
     levels = _levels(steps, peak)[: None if with_times else 1, steps.owner]
-    levels[0, ~steps.alive(error, error)] = -np.inf
+    levels[0, ~steps.alive(size, size)] = -np.inf
     found = crossings(y, levels, turns_of_y)
     IAE, ITAE = _absolute_integrals(steps, minus_e, found.of_first_level())
     ISE = steps.length / 2 * np.add.reduce((minus_e @ SQUARE) * minus_e, axis=1)
     rise, settling = _times(steps, found, levels, right[:m]) if with_times else np.full((2, len(peak)), np.nan)
-    integrals = np.abs([IAE, ISE, ITAE, TV])  # of what is not alive the sign was not asked for
+    integrals = np.abs([IAE, ISE, ITAE, TV])  # what is not alive has no sign of its own
     integrals[3] += np.abs(left[m:] - steps.before(right[m:]))
     integrals = np.add.reduceat(integrals, steps.first, axis=1)
     return Measures(*integrals, overshoot, peak, peak_time, rise, settling)
@@ -123,8 +127,8 @@ def _extremes(
     owner = np.concatenate([steps.owner, steps.owner, steps.owner[turns.row]])
     values = np.concatenate([left, right, turns.value])
     times = np.concatenate([steps.begin, steps.begin + steps.length, steps.time(turns.row, turns.x)])
-    n, step = len(steps.first), steps.target != 0
-    high, low, time = np.full(n, -np.inf), np.full(n, np.inf), np.full(n, np.inf)
+    step, high = steps.target != 0, np.full(len(steps.first), -np.inf)
+    low, time = -high, -high
     np.maximum.at(high, owner, values)
     np.minimum.at(low, owner, values)
     peak = np.where(step | (high >= -low), high, low)
@@ -135,7 +139,7 @@ def _extremes(
 
 
 def _levels(steps: Steps, peak: np.ndarray) -> np.ndarray:
-    """LEVELS of each response, (5, n)."""
+    """LEVELS in the units of y, (5, n)."""
     return np.where(steps.target, LEVELS[0], LEVELS[1] * np.abs(peak))
 
 

@@ -5,7 +5,7 @@ between two samples is lost. From the secant of its bracket x goes by Halley's s
 
     x - N/(1 - N f''/(2 f')),   N = f/f'
 
-or halves the bracket, until a step is short; the next one then leaves rounding.
+or halves the bracket, until a step is short and nearly Newton's, N; the next one then leaves rounding.
 """
 
 from dataclasses import dataclass
@@ -19,8 +19,8 @@ from simc_core.simulation.pieces import chebyshev_basis
 INTERVALS = 64
 SAMPLES = np.cos(np.pi * np.arange(INTERVALS, -1, -1) / INTERVALS)
 MOST_STEPS = 8
-SHORT = 0.1  # of the bracket; what is left behind such a step is about its third power
-FLAT = 1e-13  # of the size of a series: so near a level it begins on it, often with several derivatives
+SHORT, BENT = 0.1, 0.1  # of the bracket, and of N f''/(2 f'), the error of Newton's step in units of it
+FLAT = 1e-11  # of the size of a series: so near a level it begins on it, often with several derivatives
 ROUNDING = 1e-15  # of its size
 
 VANDERMONDE = chebyshev.chebvander(SAMPLES, P - 1).T
@@ -117,8 +117,8 @@ def _polished(own: np.ndarray, rounding, low, high, first, last) -> tuple[np.nda
     x, short = low - first * width / (last - first), SHORT * width
     with np.errstate(divide="ignore", invalid="ignore"):
         for _ in range(MOST_STEPS):
-            f, following = _step(x, parts, chebyshev_basis(x))
-            near = (np.abs(following - x) <= short) | (np.abs(f) <= rounding)
+            f, following, bent = _step(x, parts, chebyshev_basis(x))
+            near = ((np.abs(following - x) <= short) & (np.abs(bent) <= BENT)) | (np.abs(f) <= rounding)
             if near.all():
                 break
             same = (f < 0) == below
@@ -130,8 +130,9 @@ def _polished(own: np.ndarray, rounding, low, high, first, last) -> tuple[np.nda
         return np.fmin(np.fmax(_step(x, parts, basis[:P])[1], low), high), basis
 
 
-def _step(x: np.ndarray, parts: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """f at x, and Halley's step from there. parts: (3, P, k), coefficients of f, f', f''/2."""
+def _step(x: np.ndarray, parts: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """f at x, where Halley's step leads, and N f''/(2 f'). parts: (3, P, k), coefficients of f, f', f''/2."""
     f, slope, bend = np.add.reduce(parts * basis, axis=1)
     newton = f / slope
-    return f, x - newton / (1 - newton * bend / slope)
+    bent = newton * bend / slope
+    return f, x - newton / (1 - bent), bent

@@ -112,6 +112,25 @@ def test_a_second_order_loop_in_closed_form():
     assert math.isnan(load.rise_time)
 
 
+@pytest.mark.parametrize("beyond", [1e-3, 1e-5, 1e-7])
+@pytest.mark.parametrize("lobe", [2, 3])
+def test_a_lobe_that_hardly_leaves_the_band_counts(lobe, beyond):
+    """T as above: e reaches q^lobe at t = lobe pi/w, here 0.02 (1 + beyond), and is back in the band a moment later.
+
+    There e is nearly flat: its slope is some 1e-5 for the last of these, so the time is not known to more digits.
+    """
+    decay = -math.log(0.02 * (1 + beyond)) / lobe
+    zeta = decay / math.hypot(math.pi, decay)
+    w = math.sqrt(1 - zeta**2)
+    got = performance(Loop(Plant(1 / (2 * zeta), 0, (1 / (2 * zeta),)), IController(1.0))).setpoint
+
+    def size(t):
+        return abs(math.exp(-zeta * t) * (math.cos(w * t) + zeta / w * math.sin(w * t)))
+
+    begin = lobe * math.pi / w
+    assert got.settling_time == pytest.approx(brentq(lambda t: size(t) - 0.02, begin, begin + 1, xtol=1e-14), rel=1e-7)
+
+
 # the reference
 
 
