@@ -78,7 +78,7 @@ def both_steps(course: Course) -> Steps:
         np.concatenate([course.length, course.length]),
         course.coefficients.reshape(2, 2 * m, -1),
         np.concatenate([course.first[:-1], course.first[:-1] + m]),
-        (np.arange(2 * n) < n) * 1.0,
+        np.repeat([1.0, 0.0], n),
     )
 
 
