@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -10,16 +12,16 @@ from simc_core.simulation.elements import TO_CHEBYSHEV, P
 from simc_core.simulation.pieces import NEAR, Pieces
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
+class Stretch(NamedTuple):
     """Elements of `lengths` one after the other, for some of the tunings.
 
-    which, begin: the tunings and when it begins.   values: (k, m, 4), y and z = u + d for r and for d at the nodes.
+    which, begin: the k tunings and when it begins for each.   values: (k, elements, 2, P, 2), y and z = u + d at the
+    nodes, for r and for d.
     """
 
     which: list[int]
     begin: list[float]
-    lengths: tuple[float, ...]
+    lengths: list[float]
     values: np.ndarray
 
 
@@ -68,18 +70,17 @@ class Course:
 
 def course(stretches: Sequence[Stretch], at_rest: Sequence[bool]) -> Course:
     """Stretches sorted by tuning and time, their values as polynomials."""
-    n, owner, begin, length, values = len(at_rest), [], [], [], []
-    for stretch in stretches:
-        starts = [0.0, *np.cumsum(stretch.lengths)[:-1].tolist()] if len(stretch.lengths) > 1 else (0.0,)
-        for e, (start, h) in enumerate(zip(starts, stretch.lengths, strict=True)):
-            owner += stretch.which
-            begin += [each + start for each in stretch.begin]
-            length += [h] * len(stretch.which)
-            values.append(stretch.values[:, e * P : (e + 1) * P])
-    owner = np.array(owner)
-    order = np.argsort(owner, kind="stable") if n > 1 else slice(None)
-    coefficients = (TO_CHEBYSHEV @ np.concatenate(values)[order]).transpose(0, 2, 1).reshape(-1, 2, 2, P)
+    n, owner, begin, length = len(at_rest), [], [], []
+    for which, begins, lengths, _ in stretches:
+        for i, start in zip(which, begins, strict=True):
+            owner += [i] * len(lengths)
+            begin += accumulate(lengths[:-1], initial=start)
+            length += lengths
+    values = np.concatenate([stretch.values.reshape(-1, 2, P, 2) for stretch in stretches])
+    owner, begin, length = np.array(owner), np.array(begin), np.array(length)
+    if n > 1:
+        order = np.argsort(owner, kind="stable")
+        owner, begin, length, values = owner[order], begin[order], length[order], values[order]
+    coefficients = (TO_CHEBYSHEV @ values).swapaxes(2, 3)
     coefficients[:, 1, 1, 0] -= 1.0  # u = z - d
-    owner = owner[order]
-    first = np.searchsorted(owner, np.arange(n + 1))
-    return Course(owner, np.array(begin)[order], np.array(length)[order], coefficients, first, np.array(at_rest))
+    return Course(owner, begin, length, coefficients, owner.searchsorted(np.arange(n + 1)), np.array(at_rest))
