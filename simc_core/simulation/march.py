@@ -29,7 +29,7 @@ from simc_core.plant import Plant
 from simc_core.simulation.course import Course, Stretch, course
 from simc_core.simulation.elements import TO_CHEBYSHEV, P
 from simc_core.simulation.law import Law, Z
-from simc_core.simulation.levels import levels
+from simc_core.simulation.levels import EYE, levels
 from simc_core.simulation.pace import MIDDLE, TAIL, Pace
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
@@ -37,7 +37,7 @@ COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often
 MOST_TO_END, MOST_TO_REST = 12_000, 6_000  # elements of one tuning, 30 us each
 LARGEST = 1e150  # an unstable response is cut off here
 WELL_POSED = 1e-12
-COEFFICIENTS = TO_CHEBYSHEV[[MIDDLE - 1, MIDDLE, P - 2, P - 1]]  # of nodal values: those that pace.py goes by
+JUDGED_BY = np.concatenate([EYE, TO_CHEBYSHEV[[MIDDLE - 1, MIDDLE, P - 2, P - 1]]])  # of nodal values: see pace.py
 
 
 def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Course:
@@ -90,8 +90,11 @@ class _Walk:
         self.law = Law(forms, self.levels)
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.theta, self.t_end, self.n = plant.theta, t_end, n
-        self.final = np.array([final_values(plant, form) for form in forms])
-        self.final[:, 1, 1] += 1.0  # of z
+        self.to_rest = t_end is None
+        self.final = np.zeros((n, 1, 2, 1, 2))  # y and z
+        if self.to_rest:
+            self.final[:, 0, :, 0] = [final_values(plant, form) for form in forms]
+            self.final[:, 0, 1, 0, 1] += 1.0
         self.S = self.law.start()
         self.z = np.zeros((n, P * max(len(self.levels.mesh), 1), 2))
         self.largest = np.full((n, 2, 2), 1e-300)
@@ -113,7 +116,7 @@ class _Walk:
         """The first intervals of theta, all tunings together, until what comes back is smooth."""
         everyone, degree = list(range(self.n)), self._degree()
         count = 2 + math.ceil(SMOOTH / degree) if degree else 3 * SMOOTH
-        if self.t_end is not None:
+        if not self.to_rest:
             count = min(count, math.floor(self.t_end / self.theta * (1 + 1e-12)) + 1)
         self._decide(everyone, slice(None), 0, *self._intervals(everyone, slice(None), max(count, 1)))
 
@@ -126,7 +129,7 @@ class _Walk:
 
     def elements(self) -> None:
         """On at every tuning's own pace."""
-        work, most = 0, MOST_TO_REST if self.t_end is None else MOST_TO_END
+        work, most = 0, MOST_TO_REST if self.to_rest else MOST_TO_END
         while self.active and work < most:
             groups: dict[tuple[bool, int], list[int]] = {}
             for i in self.active:
@@ -135,7 +138,7 @@ class _Walk:
             self._groups(groups)
             on_mesh = self.theta > 0 and any(level == 0 for _, level in groups)
             work += len(self.levels.mesh) if on_mesh else 1
-        if self.active and self.t_end is not None:
+        if self.active and not self.to_rest:
             raise InvalidParameter(
                 f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
                 f"{min(self.paces[i].t for i in self.active):.4g}: the loop oscillates too fast for it"
@@ -180,9 +183,10 @@ class _Walk:
         """Keep what is good enough, shorten what is not; choose the level of the next element."""
         k, on_mesh = len(which), level == 0 and self.theta > 0
         judged = values[:, -len(self.levels.mesh) :] if on_mesh else values
-        largest = np.maximum(self.largest[at], np.abs(judged).max(axis=(1, 3)))
-        spectra = np.abs(COEFFICIENTS @ judged).max(axis=1) / largest[:, :, None]
-        middles, tails = spectra.reshape(k, 2, 2, 4).max(axis=(1, 3)).T.tolist()
+        spectra = np.maximum.reduce(np.abs(JUDGED_BY @ judged), axis=1)
+        spectra = np.maximum.reduceat(spectra, (0, P, P + 2), axis=2)
+        largest = np.maximum(self.largest[at], spectra[:, :, 0])
+        _, middles, tails = np.maximum.reduce(spectra / largest[:, :, None], axis=(1, 3)).T.tolist()
         if on_mesh and max(tails) > self.coarse:
             raise _TooCoarse
         good = [j for j, tail in enumerate(tails) if tail <= TAIL or on_mesh]
@@ -191,25 +195,21 @@ class _Walk:
                 self.paces[which[j]].shorten()
             if not good:
                 return
-            which, tails, middles = ([each[j] for j in good] for each in (which, tails, middles))
+            which, middles, tails = ([each[j] for j in good] for each in (which, middles, tails))
             values, S, largest = values[good], S[good], largest[good]
             at = np.array(which)
         self._keep(which, at, level, values, S)
         self.largest[at] = largest
-        to_rest = self.t_end is None
-        sizes = self._away(at, values, largest) if to_rest else largest.max(axis=(1, 2)).tolist()
-        last = self.levels.mesh[-1] if on_mesh else level
+        last, unit = self.levels.mesh[-1] if on_mesh else level, self.levels.unit
+        sizes = np.maximum.reduce(np.abs(values - self.final[at]), axis=(1, 3)) / largest if self.to_rest else largest
+        sizes = np.maximum.reduce(sizes, axis=(1, 2)).tolist()
         for i, middle, tail, size in zip(which, middles, tails, sizes, strict=True):
             pace = self.paces[i]
-            pace.lengthen(last, middle, tail, None if to_rest else (self.t_end - pace.t) / self.levels.unit)
+            left = None if self.to_rest else (self.t_end - pace.t) / unit
+            pace.lengthen(last, middle, tail, pace.t / unit, left)
             # what is asked for at t_end is the right-hand limit
-            if pace.rests(size) if to_rest else pace.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
+            if pace.rests(size) if self.to_rest else pace.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
                 del self.active[i]
-
-    def _away(self, at, values: np.ndarray, largest: np.ndarray) -> list[float]:
-        """How far from its final value each response gets in the element, over its largest value."""
-        far = np.abs(values - self.final[at][:, None, :, None]).max(axis=(1, 3))
-        return (far / largest).max(axis=(1, 2)).tolist()
 
     def _keep(self, which: list[int], at, level: int, values: np.ndarray, S: np.ndarray) -> None:
         """Enter a stretch, and go on from its end."""

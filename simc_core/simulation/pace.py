@@ -46,14 +46,14 @@ class Pace:
         self.level, self.good = self.level - 1, 0
         self.patience = min(2 * self.patience, MOST_PATIENCE)
 
-    def lengthen(self, judged: int, middle: float, tail: float, left: float | None) -> None:
-        """An element of level `judged` was good; its middle and last coefficients. left: what is left to the end, in
-        units of level 0; None where there is no end.
+    def lengthen(self, judged: int, middle: float, tail: float, done: float, left: float | None) -> None:
+        """An element of level `judged` was good; its middle and last coefficients. done, left: time so far, and what is
+        left to the end, in units of level 0; left is None where there is no end.
         """
         self.good += 1
         longer = self.level + (tail < ROOM * TAIL)
         if tail < SMALL * TAIL and self.patience == PATIENCE:
-            longer = max(longer, judged + _doublings(middle))
+            longer = max(longer, min(judged + _doublings(middle), 1 + math.floor(math.log2(done))))
         if longer > self.level:
             self.level, self.good, self.patience = min(longer, HIGHEST), 0, PATIENCE
         elif self.good >= self.patience:
