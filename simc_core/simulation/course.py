@@ -15,14 +15,14 @@ from simc_core.simulation.pieces import NEAR, Pieces
 class Stretch(NamedTuple):
     """Elements of `lengths` one after the other, for some of the tunings.
 
-    which, begin: the k tunings and when it begins for each.   values: (k, elements, 2, P, 2), y and z = u + d at the
-    nodes, for r and for d.
+    which, begin: the k tunings and when it begins for each.   values: of each element (k, 2 P or more, 2), y and then
+    z = u + d at the nodes, for r and for d.
     """
 
     which: list[int]
     begin: list[float]
     lengths: list[float]
-    values: np.ndarray
+    values: list[np.ndarray]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,13 +70,14 @@ class Course:
 
 def course(stretches: Sequence[Stretch], at_rest: Sequence[bool]) -> Course:
     """Stretches sorted by tuning and time, their values as polynomials."""
-    n, owner, begin, length = len(at_rest), [], [], []
-    for which, begins, lengths, _ in stretches:
-        for i, start in zip(which, begins, strict=True):
-            owner += [i] * len(lengths)
-            begin += accumulate(lengths[:-1], initial=start)
-            length += lengths
-    values = np.concatenate([stretch.values.reshape(-1, 2, P, 2) for stretch in stretches])
+    n, owner, begin, length, nodal = len(at_rest), [], [], [], []
+    for which, begins, lengths, values in stretches:
+        for own, start, h in zip(values, accumulate(lengths[:-1], initial=0.0), lengths, strict=True):
+            owner += which
+            begin += [each + start for each in begins]
+            length += [h] * len(which)
+            nodal.append(own[:, : 2 * P])
+    values = np.concatenate(nodal).reshape(-1, 2, P, 2)
     owner, begin, length = np.array(owner), np.array(begin), np.array(length)
     if n > 1:
         order = np.argsort(owner, kind="stable")

@@ -5,7 +5,7 @@
 
 With measured.py's maps p, p', int p are matrices times (w at the nodes, x_0), so the element is linear in w and
 
-    S = (x_0, xi, r, d, q)      (y, z at the nodes, S at the end) = G (w, S)
+    S = (x_0, xi, r, d, q)      (y, z at the nodes, their coefficients for pace.py, S at the end) = G (w, S)
 
 r and d are the steps themselves, which stay; q is what the filter of the set point still lacks.
 """
@@ -16,15 +16,18 @@ from typing import NamedTuple
 import numpy as np
 
 from simc_core.controllers import ParallelPid
-from simc_core.simulation.elements import P
+from simc_core.simulation.elements import TO_CHEBYSHEV, P
 from simc_core.simulation.levels import EYE, Elements, Levels
 from simc_core.simulation.measured import SIGNALS
+from simc_core.simulation.pace import MIDDLE
 
-Y, Z = slice(P), slice(P, 2 * P)  # rows of G; those of S at the end follow
+SPECTRUM = TO_CHEBYSHEV[[MIDDLE - 1, MIDDLE, P - 2, P - 1]]  # of nodal values: the coefficients that pace.py goes by
+Y, Z, END = slice(P), slice(P, 2 * P), 2 * P + 8  # rows of G; in between two middle ones of y and z, two last ones
+PARTS = (0, P, 2 * P, 2 * P + 2, 2 * P + 4, 2 * P + 6)
 
 
 class OnLevel(NamedTuple):
-    """Of n tunings. G: (n, 2 P + size, P + size), see the module docstring.
+    """Of n tunings. G: (n, END + size, P + size), see the module docstring.
 
     one_less, begun: 1 - B Z and B z_S, (n, P, P) and (n, P, size), for w = H + B z with z = Z w + z_S S.
     """
@@ -63,22 +66,25 @@ class Law:
         return self._made[level]
 
     def _on(self, elements: Elements) -> np.ndarray:
-        """G on each of the levels, (L, n, 2 P + size, P + size)."""
+        """G on each of the levels, (L, n, END + size, P + size)."""
         L, n, own = len(elements.levels), len(self.gains), P + self.levels.chain.n  # own: columns of the plant's maps
         xi, r, d, q = range(own, own + 4)
+        begin = END - P  # from the column to the row of each
         nodes, Ki = elements.nodes[:, None], self.Ki
-        G = np.zeros((L, n, 2 * P + self.size, P + self.size))
+        G = np.zeros((L, n, END + self.size, P + self.size))
         G[:, :, Y, :own] = elements.signals[:, None, 0]
         G[:, :, Z, :own] = (-self.gains @ elements.signals[:, 1:].reshape(L, SIGNALS - 1, -1)).reshape(L, n, P, own)
         G[:, :, Z, xi] = G[:, :, Z, d] = 1.0
         G[:, :, Z, r] = self.ahead + Ki * nodes
-        G[:, :, 2 * P : P + own, :own] = elements.ends[:, None]
-        G[:, :, P + xi, :own] = -Ki * elements.signals[:, None, 3, -1]
-        G[:, :, P + xi, r] = Ki[:, 0] * elements.length[:, None]
-        G[:, :, P + xi, xi] = G[:, :, P + r, r] = G[:, :, P + d, d] = 1.0
+        G[:, :, END : begin + own, :own] = elements.ends[:, None]
+        G[:, :, begin + xi, :own] = -Ki * elements.signals[:, None, 3, -1]
+        G[:, :, begin + xi, r] = Ki[:, 0] * elements.length[:, None]
+        G[:, :, begin + xi, xi] = G[:, :, begin + r, r] = G[:, :, begin + d, d] = 1.0
         if self.tau_F:
             late = np.exp(nodes / -self.tau_F)
             G[:, :, Z, q] = (self.kick / self.tau_F - self.ahead) * late - Ki * self.tau_F * (1 - late)
-            G[:, :, P + xi, q] = Ki[:, 0] * self.tau_F * np.expm1(elements.length[:, None] / -self.tau_F)
-            G[:, :, P + q, q] = late[..., -1]
+            G[:, :, begin + xi, q] = Ki[:, 0] * self.tau_F * np.expm1(elements.length[:, None] / -self.tau_F)
+            G[:, :, begin + q, q] = late[..., -1]
+        spectra = SPECTRUM @ G[:, :, : 2 * P].reshape(L, n, 2, P, -1)
+        G[:, :, 2 * P : END] = spectra.reshape(L, n, 2, 2, 2, -1).swapaxes(2, 3).reshape(L, n, 8, -1)
         return G

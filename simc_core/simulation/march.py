@@ -7,7 +7,7 @@ The maps are the same for all tunings of a plant.
 Intervals. Over [k theta, (k+1) theta] w is known from the interval before. Jumps and kinks sit at k theta, on edges,
 and cost no accuracy; a mesh that is fine at its start holds the fast modes that they excite.
 Elements. A jump comes back smoother by the relative degree of L each time. Once it is smooth, elements of length
-theta 2^level take over, each tuning at its own pace. The part of w beyond theta is then the element itself:
+theta 2^level take over, each tuning at its out pace. The part of w beyond theta is then the element itself:
 
     w = H + B z,   z = Z w + z_S S     =>     w = (1 - B Z)^-1 (H + B z_S S)
 
@@ -27,17 +27,16 @@ from simc_core.errors import InvalidParameter
 from simc_core.logresponse import FactoredResponse
 from simc_core.plant import Plant
 from simc_core.simulation.course import Course, Stretch, course
-from simc_core.simulation.elements import TO_CHEBYSHEV, P
-from simc_core.simulation.law import Law, Z
-from simc_core.simulation.levels import EYE, levels
-from simc_core.simulation.pace import MIDDLE, TAIL, Pace
+from simc_core.simulation.elements import P
+from simc_core.simulation.law import END, PARTS, Law, Z
+from simc_core.simulation.levels import levels
+from simc_core.simulation.pace import TAIL, Pace
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 MOST_TO_END, MOST_TO_REST = 12_000, 6_000  # elements of one tuning, 30 us each
 LARGEST = 1e150  # an unstable response is cut off here
 WELL_POSED = 1e-12
-JUDGED_BY = np.concatenate([EYE, TO_CHEBYSHEV[[MIDDLE - 1, MIDDLE, P - 2, P - 1]]])  # of nodal values: see pace.py
 
 
 def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Course:
@@ -82,7 +81,10 @@ class _TooCoarse(Exception):
 
 
 class _Walk:
-    """State of the march: S (n, size, 2) as in law.py, z at the nodes of the element before, the pace of each tuning."""
+    """State of the march: S (n, size, 2) as in law.py, z at the nodes of the step before, the pace of each tuning.
+
+    A step is some intervals or one element: what G makes of (w, S), one array (k, END + size, 2) for each element.
+    """
 
     def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int):
         n = len(forms)
@@ -91,10 +93,11 @@ class _Walk:
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.theta, self.t_end, self.n = plant.theta, t_end, n
         self.to_rest = t_end is None
-        self.final = np.zeros((n, 1, 2, 1, 2))  # y and z
+        self.final = np.zeros((n, 2, 1, 2))  # y and z
         if self.to_rest:
-            self.final[:, 0, :, 0] = [final_values(plant, form) for form in forms]
-            self.final[:, 0, 1, 0, 1] += 1.0
+            self.final[:, :, 0] = [final_values(plant, form) for form in forms]
+            self.final[:, 1, 0, 1] += 1.0
+        self.mesh = [self.theta * part for part in self.levels.shape]
         self.S = self.law.start()
         self.z = np.zeros((n, P * max(len(self.levels.mesh), 1), 2))
         self.largest = np.full((n, 2, 2), 1e-300)
@@ -118,7 +121,7 @@ class _Walk:
         count = 2 + math.ceil(SMOOTH / degree) if degree else 3 * SMOOTH
         if not self.to_rest:
             count = min(count, math.floor(self.t_end / self.theta * (1 + 1e-12)) + 1)
-        self._decide(everyone, slice(None), 0, *self._intervals(everyone, slice(None), max(count, 1)))
+        self._decide(everyone, slice(None), 0, self._intervals(everyone, slice(None), max(count, 1)))
 
     def _degree(self) -> int:
         """Least relative degree of the loops."""
@@ -128,7 +131,7 @@ class _Walk:
         return chain.relative_degree + (chain.tau_F > 0) + (not Kp.any())
 
     def elements(self) -> None:
-        """On at every tuning's own pace."""
+        """On at every tuning's out pace."""
         work, most = 0, MOST_TO_REST if self.to_rest else MOST_TO_END
         while self.active and work < most:
             groups: dict[tuple[bool, int], list[int]] = {}
@@ -148,29 +151,30 @@ class _Walk:
         """One stretch each. Keys: whether it follows an interval on the mesh, and its level."""
         for (_, level), which in groups.items():
             at = slice(None) if len(which) == self.n else np.array(which)
-            step = self._intervals(which, at, 1) if level == 0 and self.theta else self._element(which, at, level)
-            self._decide(which, at, level, *step)
+            on_mesh = level == 0 and self.theta
+            self._decide(
+                which, at, level, self._intervals(which, at, 1) if on_mesh else self._element(which, at, level)
+            )
 
-    def _intervals(self, which: list[int], at, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Some intervals of theta on the mesh: w is z of the interval before. As _element."""
-        S, values, laws = self.S[at], [], [self.law[level].G[at] for level in self.levels.mesh]
+    def _intervals(self, which: list[int], at, count: int) -> list[np.ndarray]:
+        """Some intervals of theta, each on its mesh: w is z of the interval before."""
+        S, step, laws = self.S[at], [], [self.law[level].G[at] for level in self.levels.mesh]
         known = self._history(which, 0) @ self.z[at, -P:] if self.paces[which[0]].before else self.z[at]
         ahead = [known[:, e * P : (e + 1) * P] for e in range(len(laws))]
         for i in range(count * len(laws)):
-            own = laws[i % len(laws)] @ np.concatenate([ahead[i], S], axis=1)
-            S = own[:, 2 * P :]
-            ahead.append(own[:, Z])
-            values.append(own[:, None, : 2 * P])
-        return np.concatenate(values, axis=1).reshape(len(own), -1, 2, P, 2), S
+            out = laws[i % len(laws)] @ np.concatenate([ahead[i], S], axis=1)
+            S = out[:, END:]
+            ahead.append(out[:, Z])
+            step.append(out)
+        return step
 
-    def _element(self, which: list[int], at, level: int) -> tuple[np.ndarray, np.ndarray]:
-        """One element of theta 2^level, w and z together: values as in Stretch, and S at its end."""
+    def _element(self, which: list[int], at, level: int) -> list[np.ndarray]:
+        """One element of theta 2^level, w and z together."""
         S, law = self.S[at], self.law[level]
         right = law.begun[at] @ S
         if self.theta:
             right += self._history(which, level) @ (self.z[at, -P:] if self.paces[which[0]].before else self.z[at])
-        own = law.G[at] @ np.concatenate([_solved(law.one_less[at], right), S], axis=1)
-        return own[:, : 2 * P].reshape(-1, 1, 2, P, 2), own[:, 2 * P :]
+        return [law.G[at] @ np.concatenate([_solved(law.one_less[at], right), S], axis=1)]
 
     def _history(self, which: list[int], level: int) -> np.ndarray:
         """levels.history for each tuning, one matrix where all are alike."""
@@ -179,54 +183,62 @@ class _Walk:
             return self.levels.history(before[0], level)
         return np.array([self.levels.history(each, level) for each in before])
 
-    def _decide(self, which: list[int], at, level: int, values: np.ndarray, S: np.ndarray) -> None:
+    def _decide(self, which: list[int], at, level: int, step: list[np.ndarray]) -> None:
         """Keep what is good enough, shorten what is not; choose the level of the next element."""
-        k, on_mesh = len(which), level == 0 and self.theta > 0
-        judged = values[:, -len(self.levels.mesh) :] if on_mesh else values
-        spectra = np.maximum.reduce(np.abs(JUDGED_BY @ judged), axis=1)
-        spectra = np.maximum.reduceat(spectra, (0, P, P + 2), axis=2)
-        largest = np.maximum(self.largest[at], spectra[:, :, 0])
-        _, middles, tails = np.maximum.reduce(spectra / largest[:, :, None], axis=(1, 3)).T.tolist()
+        on_mesh, last = level == 0 and self.theta > 0, step[-len(self._parts(level)) :]
+        found = _largest([np.maximum.reduceat(np.abs(out[:, :END]), PARTS, axis=1) for out in last])
+        found = found.reshape(-1, 3, 2, 2)
+        largest = np.maximum(self.largest[at], found[:, 0])
+        _, middles, tails = np.maximum.reduce(found / largest[:, None], axis=(2, 3)).T.tolist()
         if on_mesh and max(tails) > self.coarse:
             raise _TooCoarse
         good = [j for j, tail in enumerate(tails) if tail <= TAIL or on_mesh]
-        if len(good) < k:
-            for j in set(range(k)) - set(good):
+        if len(good) < len(which):
+            for j in set(range(len(which))) - set(good):
                 self.paces[which[j]].shorten()
             if not good:
                 return
             which, middles, tails = ([each[j] for j in good] for each in (which, middles, tails))
-            values, S, largest = values[good], S[good], largest[good]
-            at = np.array(which)
-        self._keep(which, at, level, values, S)
+            step, largest, at = [out[good] for out in step], largest[good], np.array(which)
+        self._keep(which, at, level, step)
         self.largest[at] = largest
-        last, unit = self.levels.mesh[-1] if on_mesh else level, self.levels.unit
-        sizes = np.maximum.reduce(np.abs(values - self.final[at]), axis=(1, 3)) / largest if self.to_rest else largest
-        sizes = np.maximum.reduce(sizes, axis=(1, 2)).tolist()
+        judged, unit = self.levels.mesh[-1] if on_mesh else level, self.levels.unit
+        sizes = self._sizes(at, step[-len(last) :], largest)
         for i, middle, tail, size in zip(which, middles, tails, sizes, strict=True):
             pace = self.paces[i]
             left = None if self.to_rest else (self.t_end - pace.t) / unit
-            pace.lengthen(last, middle, tail, pace.t / unit, left)
+            pace.lengthen(judged, middle, tail, pace.t / unit, left)
             # what is asked for at t_end is the right-hand limit
             if pace.rests(size) if self.to_rest else pace.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
                 del self.active[i]
 
-    def _keep(self, which: list[int], at, level: int, values: np.ndarray, S: np.ndarray) -> None:
+    def _sizes(self, at, last: list[np.ndarray], largest: np.ndarray) -> list[float]:
+        """How far from rest each response gets, over its largest value; on the way to t_end how large it has been."""
+        if not self.to_rest:
+            return largest.max(axis=(1, 2)).tolist()
+        final = self.final[at]
+        away = [np.maximum.reduce(np.abs(out[:, : 2 * P].reshape(-1, 2, P, 2) - final), axis=2) for out in last]
+        return np.maximum.reduce(_largest(away) / largest, axis=(1, 2)).tolist()
+
+    def _keep(self, which: list[int], at, level: int, step: list[np.ndarray]) -> None:
         """Enter a stretch, and go on from its end."""
-        if level == 0 and self.theta:
-            count, length = values.shape[1] // len(self.levels.mesh), self.theta
-            lengths = [self.theta * part for part in self.levels.shape] * count
-        else:
-            count, length = 1, self.levels.length(level)
-            lengths = [length]
-        paces = [self.paces[i] for i in which]
-        self.stretches.append(Stretch(which, [pace.t for pace in paces], lengths, values))
-        self.S[at] = S
-        z = values[:, -len(lengths) // count :, 1].reshape(len(which), -1, 2)
+        paces, parts = [self.paces[i] for i in which], self._parts(level)
+        intervals = len(step) // len(parts)
+        self.stretches.append(Stretch(which, [pace.t for pace in paces], parts * intervals, step))
+        self.S[at] = step[-1][:, END:]
+        z = np.concatenate([out[:, Z] for out in step[-len(parts) :]], axis=1)
         self.z[at, -z.shape[1] :] = z
         for pace in paces:
-            pace.t += count * length
+            pace.t += intervals * self.levels.length(level)
             pace.before = level
+
+    def _parts(self, level: int) -> list[float]:
+        """Lengths of the elements of one step of the march."""
+        return self.mesh if level == 0 and self.theta else [self.levels.length(level)]
+
+
+def _largest(arrays: list[np.ndarray]) -> np.ndarray:
+    return arrays[0] if len(arrays) == 1 else np.maximum.reduce(arrays)
 
 
 def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
