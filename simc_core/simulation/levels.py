@@ -15,7 +15,7 @@ from simc_core.plant import Plant
 from simc_core.simulation.elements import NODES, TO_CHEBYSHEV, P, mesh
 from simc_core.simulation.measured import Measured
 
-AHEAD = 8  # levels made at once
+AHEAD, MORE = 8, 4  # levels made at once: at first, and when these do not reach
 EYE = np.eye(P)
 
 
@@ -53,7 +53,7 @@ class Levels:
     def __getitem__(self, level: int) -> Elements:
         """The elements that hold this level."""
         if level not in self._made:
-            self._make([each for each in range(level, level + AHEAD) if each not in self._made])
+            self._make([each for each in range(level, level + MORE) if each not in self._made])
         return self._made[level]
 
     def length(self, level: int) -> float:
