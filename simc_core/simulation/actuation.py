@@ -125,7 +125,7 @@ class Stepped:
 
 def stepped(dt: float, y: np.ndarray, v: np.ndarray, u: np.ndarray, h: float) -> Stepped:
     """A course of steps of equal length dt, without those behind an overflow."""
-    good = np.all(np.abs(y) < LARGEST, axis=1) & np.all(np.abs(v) < LARGEST, axis=1)
+    good = np.all((np.abs(y) < LARGEST) & (np.abs(v) < LARGEST), axis=1)
     N = len(y) if good.all() else max(int(np.argmin(good)), 1)
     return Stepped(dt * np.arange(N + 1), y[:N], v[:N], u[:N], h)
 
