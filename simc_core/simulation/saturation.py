@@ -126,7 +126,7 @@ def _law(plant: Driven, Ki: float, half: float, T_t: float, at_once: bool) -> _L
     after, (y0, p0, i0), (y1, p1, i1) = plant.over(x, z[OF_PLANT])
     v0, rest = z[ASK0] - p0 + integral, z[ASK1] - p1  # v1 = rest + I1
     I1 = (integral + z[RATE] - J * (i0 + i1) - pull * (v0 + rest)) / (1 + pull)
-    own = 1 + last[1] - of_u1
+    own = 1 + last[1] - of_u1  # asked for at the end is the u1 that is v1: own u1 = rest + I1 + (of_u0 - first) u0
     matrix = np.array([*after, I1, v0 / (1 + jump[1]), (rest + I1) / own])
     return _Law(matrix, (of_u0 - first[1]) / own, np.array([y0, y1]), np.array([v0, rest]), integral)
 
