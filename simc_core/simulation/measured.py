@@ -15,6 +15,7 @@ which is the collocation method of the whole chain. Columns of every map: (w at 
 import numpy as np
 
 from simc_core.errors import InvalidParameter
+from simc_core.loop import factored_plant
 from simc_core.plant import Plant
 from simc_core.realisation import Row, sections
 from simc_core.simulation.elements import COLLOCATION, P
@@ -30,15 +31,15 @@ class Measured:
     """
 
     def __init__(self, plant: Plant, tau_F: float, derivative: bool):
+        factored = factored_plant(plant)
         self.gain, self.theta, self.tau_F = plant.k, plant.theta, tau_F
-        self.sections = sections(plant.factored)
+        self.sections = sections(factored)
         self.derivative = derivative
         self.n = sum(2 if den[0] else 1 for _, den in self.sections) + (tau_F > 0)
         if derivative and not tau_F and not self._strictly_proper():
             raise InvalidParameter(
                 f"tau_F must be > 0 for derivative action on a plant whose response starts with a jump, got {tau_F:g}"
             )
-        factored = plant.factored
         filter_ = [-1 / tau_F] if tau_F else []
         self.modes = np.array([*factored.poles, *filter_])
         self.relative_degree = factored.relative_degree
