@@ -1,8 +1,8 @@
 """`make bench`: the full recompute of a tuning against python-control with Pade(5) and Pade(10), as ratios.
 
 Both compute y and u for a set-point and a load step at 600 points, step metrics, five frequency responses at 400
-frequencies, all margins, and whether the loop is stable. One pinned core, interleaved, medians. A table, and
-results/engine.json.
+frequencies, all margins, and whether the loop is stable. One pinned core, RUNS of each in turn, medians of the rounds.
+A table, and results/engine.json.
 """
 
 import numpy as np
@@ -23,6 +23,7 @@ CASES = {
     "order 12": Loop(Plant(1, 2, (100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1, 0.05, 0.01)), SeriesPid(2, 100)),
     "horizon/theta = 1e4": Loop(Plant(1, 0.01, (8, 0.5)), SeriesPid(4, 8)),
 }
+RUNS = 5  # one after the other
 HORIZONS = {"horizon/theta = 1e4": 100.0}
 
 
@@ -51,7 +52,8 @@ def main() -> None:
                 "retuned": lambda loop=loop, end=t_end, omega=omega: ours(loop, end, omega, plants=False),
                 "Pade(5)": lambda loop=loop, t=t, omega=omega: peer(loop, 5, t, omega),
                 "Pade(10)": lambda loop=loop, t=t, omega=omega: peer(loop, 10, t, omega),
-            }
+            },
+            RUNS,
         )
         exact = simulate(loop, Scenario(disturbance=0.0, t=t)).y
         errors = [float(np.max(np.abs(peer(loop, order, t, omega) - exact))) for order in (5, 10)]

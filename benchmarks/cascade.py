@@ -1,4 +1,4 @@
-"""`make bench`, last part: the full recompute of a cascade against two single-loop recomputes of python-control.
+"""`make bench`, third part: the full recompute of a cascade against two single-loop recomputes of python-control.
 
 Ours: y1, y2 and u for r, d1 and d2 at 600 points, step metrics of all three, frequency responses of both loops at 400
 frequencies, margins of both and the verdict on stability, all with both dead times exact, nothing remembered. The

@@ -43,14 +43,15 @@ def peer(loop: Loop, order: int, t: np.ndarray, omega: np.ndarray) -> np.ndarray
     return responses[0, 0]
 
 
-def median_times(jobs: dict[str, Callable[[], object]]) -> dict[str, float]:
-    """Seconds, interleaved."""
+def median_times(jobs: dict[str, Callable[[], object]], runs: int = 1) -> dict[str, float]:
+    """Seconds of one run, interleaved: in each round every job `runs` times, as a slider that moves asks for it."""
     taken: dict[str, list[float]] = {name: [] for name in jobs}
     for _ in range(ROUNDS):
         for name, job in jobs.items():
             start = time.perf_counter()
-            job()
-            taken[name].append(time.perf_counter() - start)
+            for _ in range(runs):
+                job()
+            taken[name].append((time.perf_counter() - start) / runs)
     return {name: float(np.median(values)) for name, values in taken.items()}
 
 

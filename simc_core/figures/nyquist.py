@@ -15,7 +15,7 @@ from simc_core.loop import FrequencyResponse
 from simc_core.margins import Margins
 
 REFERENCES = ((1.4, 110.0), (1.6, 160.0), (2.0, 60.0))  # Ms, and where the label interrupts its circle, degrees
-LABEL = 0.14  # half length of the interruption, in units of L
+LABEL, HEIGHT = 0.14, 0.04  # half length of the interruption, and what a label covers to either side, in units of L
 FLAT = 1e-6  # |Mt - 1| below this: the circle is a line to the eye
 VIEW_X, VIEW_Y = (-2.2, 0.7), (-1.4, 0.85)
 FARTHEST_LEFT = -4.0
@@ -50,9 +50,14 @@ def nested_nyquist_figure(
 
 
 def _plane(traces: list[Trace], judged: Sequence[Margins], height: int | None) -> Figure:
-    """The plane of L, 1:1, with the circles of well-known Ms and the critical point."""
-    circles = [trace for Ms, angle in REFERENCES for trace in _reference(Ms, angle)]
+    """The plane of L, 1:1, with the circles of well-known Ms and the critical point.
+
+    Where a loop's own circle would run through the label of a well-known one, that one is left out.
+    """
     stable = all(margins.stable for margins in judged)
+    own = [1 / margins.Ms for margins in judged if margins.stable]
+    clear = [(Ms, angle) for Ms, angle in REFERENCES if all(abs(1 / Ms - radius) > HEIGHT for radius in own)]
+    circles = [trace for Ms, angle in clear for trace in _reference(Ms, angle)]
     return palette.figure(
         [*circles, *traces, critical_point()],
         palette.axis("Re L  [–]", range=_view(judged), zeroline=True, constrain="range"),

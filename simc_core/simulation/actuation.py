@@ -1,7 +1,16 @@
-"""What stands between controller and plant, and what a loop with it is simulated on.
+"""What stands between controller and plant, and how a loop with it is stepped.
 
-Modules saturation (continuous controllers) and sampling (sampled ones) step the controller; the plant over a block of
-steps no longer than its dead time is one matrix product (module blocks), since its input is known: class Driven.
+Between the limits such a loop is linear. What is known at the start of step j is a row
+
+    z_j = (x, controller, u asked for | u of the step before, set point and noise | w1, w2, d, arriving d)
+
+w1, w2: u that reaches the plant in this step, behind the dead time.   d: the disturbance that reaches it for the whole
+step; arriving: for its last part.   One matrix W makes of z_j what stands before the first bar in z_{j+1}. What is left
+to do in each step is u = min(max(asked, u_min), u_max), written into z_{j+1}, and as w a dead time later. Without dead
+time w comes too late for W: x then lacks what u of the step before adds to it, and W puts it in.
+
+The plant's part of W is made here (Driven), that of the controller in modules saturation (continuous) and sampling.
+Each quantity is a row there, of the coefficients by which it is made of z_j, so the laws stand as one knows them.
 """
 
 import math
@@ -12,14 +21,14 @@ import numpy as np
 from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.loop import Loop
-from simc_core.simulation.blocks import Blocks, Linear
+from simc_core.simulation.one_step import Linear, Step
 
 STEPS = 5000  # at least; more where theta or h is short against the horizon
-MOST_STEPS = 50_000  # about 0.7 s where theta is so short that every step is one of Python
-LONGEST_BLOCK = 80  # steps: beyond it the Toeplitz matrix costs more than it saves
+MOST_STEPS = 50_000  # less than 0.1 s
 SAME = 1e-9  # relative; instants closer than this to the grid are on it
 MOST_JUMPS = 1000  # of a course that are shown as jumps
 LARGEST = 1e200  # an unstable response is cut off here
+W1, W2, LOAD, ARRIVING = OF_PLANT = range(-4, 0)  # the last columns of z
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +125,7 @@ class Stepped:
 
 def stepped(dt: float, y: np.ndarray, v: np.ndarray, u: np.ndarray, h: float) -> Stepped:
     """A course of steps of equal length dt, without those behind an overflow."""
-    good = np.all(np.abs(y) < LARGEST, axis=1) & np.all(np.abs(v) < LARGEST, axis=1)
+    good = np.all((np.abs(y) < LARGEST) & (np.abs(v) < LARGEST), axis=1)
     N = len(y) if good.all() else max(int(np.argmin(good)), 1)
     return Stepped(dt * np.arange(N + 1), y[:N], v[:N], u[:N], h)
 
@@ -133,39 +142,35 @@ def tracking_time(loop: Loop, actuation: Actuation) -> float:
     return abs(form.Kp / form.Ki) if form.Kp else 1 / abs(form.Ki * loop.plant.k)
 
 
-def arrival(system: Linear, dt: float, theta: float, inputs: Inputs) -> tuple[int, np.ndarray | None, int]:
-    """When d reaches the plant: in which step, what it adds to the state at the end of it, the first whole step.
-
-    None where d comes just with a step, which is then the first whole one.
-    """
-    arrives = (inputs.disturbance_time + theta) / dt
-    first = round(arrives) if abs(arrives - round(arrives)) < SAME * arrives else math.floor(arrives)
-    rest = max(first + 1 - arrives, 0.0) * dt  # of step `first`, d acts on this last part
-    if rest >= dt * (1 - SAME):
-        return first, None, first
-    return first, system.hold(rest)[1] * inputs.disturbance, first + 1
-
-
 class Driven:
-    """The plant on its way through time: its state, and the disturbance that adds to the delayed u."""
+    """The plant over one step, driven by u behind its dead time and by d; see the module docstring.
 
-    def __init__(self, system: Linear, steps: Blocks, dt: float, theta: float, inputs: Inputs):
-        self.system, self.steps = system, steps
-        self.d, self.x = inputs.disturbance, np.zeros(len(system.B))
-        self.first, self.kick, self.whole = arrival(system, dt, theta, inputs)
+    step: Phi, G1, G2.   first, whole: the step in which d arrives, and the first that it drives from start to end, the
+    same if it comes just with a step.   kick: what d = 1 adds to x in step `first`.
+    """
 
-    def end_of_block(self, now: int, wanted: int) -> int:
-        """`wanted`, or earlier, where d begins to act or the longest block ends."""
-        until = min(wanted, now + self.steps.most)
-        return min((edge for edge in (self.first, self.first + 1) if now < edge < until), default=until)
+    def __init__(self, system: Linear, step: Step, dt: float, theta: float, inputs: Inputs):
+        self.system, self.step, self.d = system, step, inputs.disturbance
+        arrives = (inputs.disturbance_time + theta) / dt
+        near = round(arrives)
+        self.first = self.whole = near if abs(arrives - near) < SAME * arrives else math.floor(arrives)
+        self.kick = np.zeros(len(system.B))
+        rest = max(self.first + 1 - arrives, 0.0) * dt  # of step `first`
+        if rest < dt * (1 - SAME):
+            self.whole, self.kick = self.first + 1, system.hold(rest)[1]
 
-    def __call__(self, v: np.ndarray, now: int) -> np.ndarray:
-        """Outputs (m, 2, o) of the steps from `now` under v (m, 2); the state moves on."""
-        o, self.x = self.steps(self.x, v + self.d if now >= self.whole else v)
-        if now == self.first and self.kick is not None:
-            self.x = self.x + self.kick
-            o[-1, 1] += self.system.C @ self.kick + self.system.D * self.d
-        return o
+    def over(self, x: np.ndarray, last: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Rows of x after the step, of the outputs at its start and at its end. x, last: rows of x, of OF_PLANT."""
+        system, (Phi, G1, G2), (w1, w2, d, arriving) = self.system, self.step, last
+        after = Phi @ x + np.outer(G1, w1 + d) + np.outer(G2, w2 + d) + np.outer(self.kick, arriving)
+        start = system.C @ x + np.outer(system.D, w1 + d)
+        return after, start, system.C @ after + np.outer(system.D, w2 + d + arriving)
+
+    def rows(self, steps: int, columns: int) -> np.ndarray:
+        """z_0 ... z_steps, (steps + 1, columns), zero but for d."""
+        z = np.zeros((steps + 1, columns))
+        z[self.whole :, LOAD] = z[self.first : self.whole, ARRIVING] = self.d
+        return z
 
 
 def affordable(steps: float, why: str) -> int:

@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,17 +11,17 @@ from simc_core.simulation.elements import TO_CHEBYSHEV, P
 from simc_core.simulation.pieces import NEAR, Pieces, chebyshev_basis
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Stretch:
+class Stretch(NamedTuple):
     """Elements of `lengths` one after the other, for some of the tunings.
 
-    which, begin: the tunings and when it begins.   values: (k, m, 4), y and z = u + d for r and for d at the nodes.
+    which, begin: the k tunings and when it begins for each.   values: of each element (k, 2 P or more, 2), y and then
+    z = u + d at the nodes, for r and for d.
     """
 
     which: list[int]
     begin: list[float]
-    lengths: tuple[float, ...]
-    values: np.ndarray
+    lengths: list[float]
+    values: list[np.ndarray]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -70,19 +72,19 @@ class Course:
 
 def course(stretches: Sequence[Stretch], at_rest: Sequence[bool]) -> Course:
     """Stretches sorted by tuning and time, their values as polynomials."""
-    n, owner, begin, length, values = len(at_rest), [], [], [], []
-    for stretch in stretches:
-        starts = [0.0, *np.cumsum(stretch.lengths)[:-1].tolist()] if len(stretch.lengths) > 1 else (0.0,)
-        for e, (start, h) in enumerate(zip(starts, stretch.lengths, strict=True)):
-            owner += stretch.which
-            begin += [each + start for each in stretch.begin]
-            length += [h] * len(stretch.which)
-            values.append(stretch.values[:, e * P : (e + 1) * P])
-    owner = np.array(owner)
-    order = np.argsort(owner, kind="stable") if n > 1 else slice(None)
-    nodal = np.concatenate(values)[order].transpose(2, 0, 1).reshape(2, 2, -1, P)
-    coefficients = nodal @ TO_CHEBYSHEV.T
+    n, owner, begin, length, nodal = len(at_rest), [], [], [], []
+    for which, begins, lengths, values in stretches:
+        for own, start, h in zip(values, accumulate(lengths[:-1], initial=0.0), lengths, strict=True):
+            owner += which
+            begin += [each + start for each in begins]
+            length += [h] * len(which)
+            nodal.append(own[:, : 2 * P])
+    values = np.concatenate(nodal).reshape(-1, 2, P, 2)
+    owner, begin, length = np.array(owner), np.array(begin), np.array(length)
+    if n > 1:
+        order = np.argsort(owner, kind="stable")
+        owner, begin, length, values = owner[order], begin[order], length[order], values[order]
+    rows = values.transpose(1, 3, 0, 2).reshape(-1, P)
+    coefficients = (rows @ TO_CHEBYSHEV.T).reshape(2, 2, -1, P)
     coefficients[1, 1, :, 0] -= 1.0  # u = z - d
-    owner = owner[order]
-    first = np.searchsorted(owner, np.arange(n + 1))
-    return Course(owner, np.array(begin)[order], np.array(length)[order], coefficients, first, np.array(at_rest))
+    return Course(owner, begin, length, coefficients, owner.searchsorted(np.arange(n + 1)), np.array(at_rest))

@@ -1,37 +1,40 @@
-"""What the controllers of a march do on one element: everything that differs between tunings of a plant.
+"""The loop on one element: everything that differs between tunings of a plant, as one constant matrix for each.
 
     z = u + d,   u = f(t) + xi - Kp p - Kd p' - Ki int p        xi: the integral at the start of the element
-    f = Kp b rF + Ki int rF + Kd c rF'                          rF = 1 - e^{-t/tau_F}, a unit step through the filter
+    f = Kp b rF + Ki int rF + Kd c rF'                          rF = r (1 - q e^{-t/tau_F}), a step through the filter
 
-With measured.py's maps p, p', int p are matrices times (x_0, w at the nodes); so is, with the gains, what is fed back.
+With measured.py's maps p, p', int p are matrices times (w at the nodes, x_0), so the element is linear in w and
+
+    S = (x_0, xi, r, d, q)      (y, z at the nodes, their coefficients for pace.py, S at the end) = G (w, S)
+
+r and d are the steps themselves, which stay; q is what the filter of the set point still lacks.
 """
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from simc_core.controllers import ParallelPid
-from simc_core.simulation.elements import P
-from simc_core.simulation.levels import Levels
+from simc_core.simulation.elements import TO_CHEBYSHEV, P
+from simc_core.simulation.levels import EYE, Elements, Levels
 from simc_core.simulation.measured import SIGNALS
+from simc_core.simulation.pace import MIDDLE
 
-FORGOTTEN = 40.0  # time constants of the filter after which the step has gone through it
-R, D = 0, 1  # columns: unit step of r, unit step of d
+SPECTRUM = TO_CHEBYSHEV[[MIDDLE - 1, MIDDLE, P - 2, P - 1]]  # of nodal values: the coefficients that pace.py goes by
+Y, Z, END = slice(P), slice(P, 2 * P), 2 * P + 8  # rows of G; in between two middle ones of y and z, two last ones
+PARTS = (0, P, 2 * P, 2 * P + 2, 2 * P + 4, 2 * P + 6)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class OnLevel:
-    """Of all n tunings. feedback: (n, P, n_x + P), (x_0, w) -> Kp p + Kd p' + Ki int p at the nodes.
+class OnLevel(NamedTuple):
+    """Of n tunings. G: (n, END + size, P + size), see the module docstring.
 
-    forward: (n, P, 2), f + d for a step that has gone through the filter.   late: (n, P), times e^{-t/tau_F} what f
-    still lacks.
+    one_less, begun: 1 - B Z and B z_S, (n, P, P) and (n, P, size), for w = H + B z with z = Z w + z_S S.
     """
 
-    feedback: np.ndarray
-    forward: np.ndarray
-    late: np.ndarray | None
+    G: np.ndarray
+    one_less: np.ndarray
+    begun: np.ndarray
 
 
 class Law:
@@ -39,47 +42,49 @@ class Law:
 
     def __init__(self, forms: Sequence[ParallelPid], levels: Levels):
         self.levels, self.tau_F = levels, forms[0].tau_F
-        self.gains = np.array([(form.Kp, form.Kd, form.Ki) for form in forms])
-        self.Ki = self.gains[:, 2, None]
-        self.ahead = np.array([[form.Kp * form.b] for form in forms])  # proportional action on the set point
-        self.kick = np.array([[form.Kd * form.c] for form in forms])
+        values = np.array([(form.Kp, form.Kd, form.Ki, form.Kp * form.b, form.Kd * form.c) for form in forms])
+        self.gains = values[:, : SIGNALS - 1]
+        self.Ki, self.ahead, self.kick = values[:, 2:3], values[:, 3:4], values[:, 4:]
+        self.size = levels.chain.n + 3 + (self.tau_F > 0)  # of S
         self._made: dict[int, OnLevel] = {}
 
+    def start(self) -> np.ndarray:
+        """S at t = 0 for unit steps of r and of d, (n, size, 2)."""
+        n = self.levels.chain.n
+        S = np.zeros((len(self.gains), self.size, 2))
+        S[:, n + 1, 0] = S[:, n + 2, 1] = 1.0
+        S[:, n + 3 :, 0] = 1.0
+        return S
+
     def __getitem__(self, level: int) -> OnLevel:
-        made = self._made.get(level)
-        if made is None:
-            made = self._made[level] = self._on(level)
-        return made
+        if level not in self._made:
+            elements = self.levels[level]
+            G = self._on(elements)
+            back = elements.B[:, None] @ G[:, :, Z]
+            made = map(OnLevel, G, EYE - back[..., :P], back[..., P:])
+            self._made |= zip(elements.levels, made, strict=True)
+        return self._made[level]
 
-    def _on(self, level: int) -> OnLevel:
-        element, n = self.levels[level], len(self.gains)
-        back = element.signals[P : SIGNALS * P]
-        feedback = (self.gains @ back.reshape(SIGNALS - 1, -1)).reshape(n, P, back.shape[1])
-        forward = np.empty((n, P, 2))
-        forward[:, :, R] = self.ahead + self.Ki * element.nodes
-        forward[:, :, D] = 1.0
-        late, tau_F = None, self.tau_F
-        if tau_F:
-            fall = np.exp(element.nodes / -tau_F)
-            late = (self.kick / tau_F - self.ahead) * fall - self.Ki * tau_F * (1 - fall)
-        return OnLevel(feedback, forward, late)
-
-    def known(self, at, level: int, begin: list[float], xi: np.ndarray) -> np.ndarray:
-        """All of z that does not come back from the plant, (k, P, 2), on an element that begins at `begin` with xi."""
-        on = self[level]
-        known = on.forward[at] + xi[:, None]
-        if self._unsettled(begin):
-            known[:, :, R] += np.exp(np.array(begin) / -self.tau_F)[:, None] * on.late[at]
-        return known
-
-    def integral(self, at, begin: list[float], xi: np.ndarray, length: float, of_p: np.ndarray) -> np.ndarray:
-        """xi at the end of the element, (k, 2): + Ki (int rF - int p)."""
-        gained = -of_p
-        gained[:, R] += length
-        if self._unsettled(begin):
-            gained[:, R] += self.tau_F * math.expm1(-length / self.tau_F) * np.exp(np.array(begin) / -self.tau_F)
-        return xi + self.Ki[at] * gained
-
-    def _unsettled(self, begin: list[float]) -> bool:
-        """Whether something of the step has not gone through the filter yet."""
-        return self.tau_F > 0 and min(begin) < FORGOTTEN * self.tau_F
+    def _on(self, elements: Elements) -> np.ndarray:
+        """G on each of the levels, (L, n, END + size, P + size)."""
+        L, n, own = len(elements.levels), len(self.gains), P + self.levels.chain.n  # own: columns of the plant's maps
+        xi, r, d, q = range(own, own + 4)
+        begin = END - P  # from the column to the row of each
+        nodes, Ki = elements.nodes[:, None], self.Ki
+        G = np.zeros((L, n, END + self.size, P + self.size))
+        G[:, :, Y, :own] = elements.signals[:, None, 0]
+        G[:, :, Z, :own] = (-self.gains @ elements.signals[:, 1:].reshape(L, SIGNALS - 1, -1)).reshape(L, n, P, own)
+        G[:, :, Z, xi] = G[:, :, Z, d] = 1.0
+        G[:, :, Z, r] = self.ahead + Ki * nodes
+        G[:, :, END : begin + own, :own] = elements.ends[:, None]
+        G[:, :, begin + xi, :own] = -Ki * elements.signals[:, None, 3, -1]
+        G[:, :, begin + xi, r] = Ki[:, 0] * elements.length[:, None]
+        G[:, :, begin + xi, xi] = G[:, :, begin + r, r] = G[:, :, begin + d, d] = 1.0
+        if self.tau_F:
+            late = np.exp(nodes / -self.tau_F)
+            G[:, :, Z, q] = (self.kick / self.tau_F - self.ahead) * late - Ki * self.tau_F * (1 - late)
+            G[:, :, begin + xi, q] = Ki[:, 0] * self.tau_F * np.expm1(elements.length[:, None] / -self.tau_F)
+            G[:, :, begin + q, q] = late[..., -1]
+        spectra = SPECTRUM @ G[:, :, : 2 * P].reshape(L, n, 2, P, -1)
+        G[:, :, 2 * P : END] = spectra.reshape(L, n, 2, 2, 2, -1).swapaxes(2, 3).reshape(L, n, 8, -1)
+        return G

@@ -5,33 +5,33 @@ those of another depends on their levels alone. Without dead time the unit is th
 """
 
 import math
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.plant import Plant
 from simc_core.simulation.elements import NODES, TO_CHEBYSHEV, P, mesh
-from simc_core.simulation.measured import SIGNALS, Measured
+from simc_core.simulation.measured import Measured
 
-AHEAD = 8  # levels made at once
+AHEAD, MORE = 8, 4  # levels made at once: at first, and when these do not reach
 EYE = np.eye(P)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Level:
-    """One element. length, nodes: from its start.   B: (P, P), its own z at t - theta.
+class Elements(NamedTuple):
+    """L levels made together. length (L,), nodes (L, P): from the start of the element.
 
-    signals: (4 P, n + P), states at the start and w -> y, p, p', int p at the nodes.
-    outcome: (P + 1 + n, n + P), -> y at the nodes, int p at the end, states at the end.
+    B: (L, P, P), its own z at t - theta.   signals: (L, 4, P, P + n), w and the states at the start -> y, p, p', int p
+    at the nodes.   ends: (L, n, P + n), -> states at the end.
     """
 
-    length: float
+    levels: tuple[int, ...]
+    length: np.ndarray
     nodes: np.ndarray
     B: np.ndarray
     signals: np.ndarray
-    outcome: np.ndarray
+    ends: np.ndarray
 
 
 class Levels:
@@ -44,25 +44,27 @@ class Levels:
         self.chain, self.theta = chain, chain.theta
         size = np.abs(chain.modes)
         self.unit = chain.theta or float(1 / np.max(size) if size.any() else 1.0)
-        self._made: dict[int, Level] = {}
+        self._made: dict[int, Elements] = {}
         parts = (mesh(chain.modes, chain.theta) / chain.theta).tolist() if chain.theta else []
         self.shape = tuple(part / 2**finer for part in parts for _ in range(2**finer))
         self.mesh = tuple(round(math.log2(part)) for part in self.shape)
         self._make(sorted({*self.mesh, *range(1, 1 + AHEAD)}))
 
-    def __getitem__(self, level: int) -> Level:
+    def __getitem__(self, level: int) -> Elements:
+        """The elements that hold this level."""
         if level not in self._made:
-            self._make([each for each in range(level, level + AHEAD) if each not in self._made])
+            self._make([each for each in range(level, level + MORE) if each not in self._made])
         return self._made[level]
 
+    def length(self, level: int) -> float:
+        """Of an element."""
+        return self.unit * 2.0**level
+
     def _make(self, wanted: list[int]) -> None:
-        lengths = self.unit * 2.0 ** np.array(wanted)
-        outputs, ends = self.chain.elements(lengths)
-        outcome = np.concatenate([outputs[:, 0], outputs[:, 3, -1:], ends], axis=1)
-        signals = outputs.reshape(len(wanted), SIGNALS * P, -1)
-        for i, (each, h) in enumerate(zip(wanted, lengths.tolist(), strict=True)):
-            B = _within(each) if self.theta else EYE
-            self._made[each] = Level(h, h * NODES, B, signals[i], outcome[i])
+        length = self.unit * 2.0 ** np.array(wanted)
+        B = np.array([_within(each) for each in wanted]) if self.theta else EYE[None]
+        made = Elements(tuple(wanted), length, length[:, None] * NODES, B, *self.chain.elements(length))
+        self._made |= dict.fromkeys(wanted, made)
 
     def history(self, before: int, level: int) -> np.ndarray:
         """From z at the nodes of the element before to z(t - theta) at those of the next, as far as it lies there.

@@ -7,11 +7,12 @@ The maps are the same for all tunings of a plant.
 Intervals. Over [k theta, (k+1) theta] w is known from the interval before. Jumps and kinks sit at k theta, on edges,
 and cost no accuracy; a mesh that is fine at its start holds the fast modes that they excite.
 Elements. A jump comes back smoother by the relative degree of L each time. Once it is smooth, elements of length
-theta 2^level take over, each tuning at its own pace. The part of w beyond theta is then the element itself:
+theta 2^level take over, each tuning at its out pace. The part of w beyond theta is then the element itself:
 
-    w = H + B z,   z = c - Z w     =>     w = (1 + B Z)^-1 (H + B c)
+    w = H + B z,   z = Z w + z_S S     =>     w = (1 - B Z)^-1 (H + B z_S S)
 
-with H from the element before and B the interpolation at t - theta. Without dead time B = 1, H = 0.
+with H from the element before and B the interpolation at t - theta. Without dead time B = 1, H = 0. What an element
+does to w and to the state S of loop and inputs is one matrix, see law.py.
 How long an element may be, see pace.py. A horizon of 10^6 dead times costs a few elements more than one of ten.
 """
 
@@ -26,17 +27,16 @@ from simc_core.errors import InvalidParameter
 from simc_core.logresponse import FactoredResponse
 from simc_core.plant import Plant
 from simc_core.simulation.course import Course, Stretch, course
-from simc_core.simulation.elements import TO_CHEBYSHEV, P
-from simc_core.simulation.law import Law
-from simc_core.simulation.levels import EYE, levels
-from simc_core.simulation.pace import ROUNDING, TAIL, Pace
+from simc_core.simulation.elements import P
+from simc_core.simulation.law import END, PARTS, Law, Z
+from simc_core.simulation.levels import levels
+from simc_core.simulation.pace import TAIL, Pace
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 MOST_TO_END, MOST_TO_REST = 12_000, 6_000  # elements of one tuning, 30 us each
 LARGEST = 1e150  # an unstable response is cut off here
 WELL_POSED = 1e-12
-VALUES_AND_LAST = np.concatenate([EYE, TO_CHEBYSHEV[-2:]])  # of nodal values: these and the last two coefficients
 
 
 def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Course:
@@ -81,7 +81,10 @@ class _TooCoarse(Exception):
 
 
 class _Walk:
-    """State of the march: x (n, n_x, 2), xi (n, 2), z at the nodes of the element before, the pace of each tuning."""
+    """State of the march: S (n, size, 2) as in law.py, z at the nodes of the step before, the pace of each tuning.
+
+    A step is some intervals or one element: what G makes of (w, S), one array (k, END + size, 2) for each element.
+    """
 
     def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int):
         n = len(forms)
@@ -89,11 +92,15 @@ class _Walk:
         self.law = Law(forms, self.levels)
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.theta, self.t_end, self.n = plant.theta, t_end, n
-        self.final = np.array([final_values(plant, form).ravel() for form in forms])
-        self.final[:, 3] += 1.0  # of z
-        self.x, self.xi = np.zeros((n, self.levels.chain.n, 2)), np.zeros((n, 2))
+        self.to_rest = t_end is None
+        self.final = np.zeros((n, 2, 1, 2))  # y and z
+        if self.to_rest:
+            self.final[:, :, 0] = [final_values(plant, form) for form in forms]
+            self.final[:, 1, 0, 1] += 1.0
+        self.mesh = [self.theta * part for part in self.levels.shape]
+        self.S = self.law.start()
         self.z = np.zeros((n, P * max(len(self.levels.mesh), 1), 2))
-        self.largest = np.full((n, 4), 1e-300)
+        self.largest = np.full((n, 2, 2), 1e-300)
         self.paces = [Pace() for _ in range(n)]
         self.active = dict.fromkeys(range(n))
         self.stretches: list[Stretch] = []
@@ -112,11 +119,9 @@ class _Walk:
         """The first intervals of theta, all tunings together, until what comes back is smooth."""
         everyone, degree = list(range(self.n)), self._degree()
         count = 2 + math.ceil(SMOOTH / degree) if degree else 3 * SMOOTH
-        if self.t_end is not None:
+        if not self.to_rest:
             count = min(count, math.floor(self.t_end / self.theta * (1 + 1e-12)) + 1)
-        for _ in range(max(count - 1, 0)):
-            self._keep(everyone, slice(None), 0, self.theta, *self._interval(everyone, slice(None)))
-        self._groups({(True, 0): everyone})
+        self._decide(everyone, slice(None), 0, self._intervals(everyone, slice(None), max(count, 1)))
 
     def _degree(self) -> int:
         """Least relative degree of the loops."""
@@ -126,8 +131,8 @@ class _Walk:
         return chain.relative_degree + (chain.tau_F > 0) + (not Kp.any())
 
     def elements(self) -> None:
-        """On at every tuning's own pace."""
-        work, most = 0, MOST_TO_REST if self.t_end is None else MOST_TO_END
+        """On at every tuning's out pace."""
+        work, most = 0, MOST_TO_REST if self.to_rest else MOST_TO_END
         while self.active and work < most:
             groups: dict[tuple[bool, int], list[int]] = {}
             for i in self.active:
@@ -136,7 +141,7 @@ class _Walk:
             self._groups(groups)
             on_mesh = self.theta > 0 and any(level == 0 for _, level in groups)
             work += len(self.levels.mesh) if on_mesh else 1
-        if self.active and self.t_end is not None:
+        if self.active and not self.to_rest:
             raise InvalidParameter(
                 f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
                 f"{min(self.paces[i].t for i in self.active):.4g}: the loop oscillates too fast for it"
@@ -146,34 +151,30 @@ class _Walk:
         """One stretch each. Keys: whether it follows an interval on the mesh, and its level."""
         for (_, level), which in groups.items():
             at = slice(None) if len(which) == self.n else np.array(which)
-            if level == 0 and self.theta:
-                self._decide(which, at, 0, self.theta, *self._interval(which, at))
-            else:
-                self._decide(which, at, level, self.levels[level].length, *self._element(which, at, level))
+            on_mesh = level == 0 and self.theta
+            self._decide(
+                which, at, level, self._intervals(which, at, 1) if on_mesh else self._element(which, at, level)
+            )
 
-    def _interval(self, which: list[int], at):
-        """One interval of theta on the mesh: w is z of the interval before. As _element."""
-        x, xi, w, values = self.x[at], self.xi[at], self.z[at], []
-        if self.paces[which[0]].before:
-            w = self._history(which, 0) @ w[:, -P:]
-        begin = [self.paces[i].t for i in which]
-        for e, level in enumerate(self.levels.mesh):
-            known = self.law.known(at, level, begin, xi)
-            own, x, xi = self._answer(at, level, begin, xi, known, x, w[:, e * P : (e + 1) * P])
-            values.append(own)
-            begin = [each + self.levels[level].length for each in begin]
-        return np.concatenate(values, axis=1) if len(values) > 1 else values[0], x, xi
+    def _intervals(self, which: list[int], at, count: int) -> list[np.ndarray]:
+        """Some intervals of theta, each on its mesh: w is z of the interval before."""
+        S, step, laws = self.S[at], [], [self.law[level].G[at] for level in self.levels.mesh]
+        known = self._history(which, 0) @ self.z[at, -P:] if self.paces[which[0]].before else self.z[at]
+        ahead = [known[:, e * P : (e + 1) * P] for e in range(len(laws))]
+        for i in range(count * len(laws)):
+            out = laws[i % len(laws)] @ np.concatenate([ahead[i], S], axis=1)
+            S = out[:, END:]
+            ahead.append(out[:, Z])
+            step.append(out)
+        return step
 
-    def _element(self, which: list[int], at, level: int):
-        """One element of theta 2^level, w and z together: y and z at its nodes (k, P, 4), x and xi at its end."""
-        made, x, xi, n = self.levels[level], self.x[at], self.xi[at], self.levels.chain.n
-        begin, feedback = [self.paces[i].t for i in which], self.law[level].feedback[at]
-        known = self.law.known(at, level, begin, xi)
-        right = made.B @ (known - feedback[:, :, :n] @ x)
+    def _element(self, which: list[int], at, level: int) -> list[np.ndarray]:
+        """One element of theta 2^level, w and z together."""
+        S, law = self.S[at], self.law[level]
+        right = law.begun[at] @ S
         if self.theta:
             right += self._history(which, level) @ (self.z[at, -P:] if self.paces[which[0]].before else self.z[at])
-        w = _solved(EYE + made.B @ feedback[:, :, n:], right)
-        return self._answer(at, level, begin, xi, known, x, w)
+        return [law.G[at] @ np.concatenate([_solved(law.one_less[at], right), S], axis=1)]
 
     def _history(self, which: list[int], level: int) -> np.ndarray:
         """levels.history for each tuning, one matrix where all are alike."""
@@ -182,67 +183,62 @@ class _Walk:
             return self.levels.history(before[0], level)
         return np.array([self.levels.history(each, level) for each in before])
 
-    def _answer(self, at, level: int, begin: list[float], xi: np.ndarray, known: np.ndarray, x: np.ndarray, w):
-        made, given = self.levels[level], np.concatenate([x, w], axis=1)
-        z = known - self.law[level].feedback[at] @ given
-        out = made.outcome @ given
-        return (
-            np.concatenate([out[:, :P], z], axis=2),
-            out[:, P + 1 :],
-            self.law.integral(at, begin, xi, made.length, out[:, P]),
-        )
-
-    def _decide(self, which: list[int], at, level: int, length: float, values, x, xi) -> None:
+    def _decide(self, which: list[int], at, level: int, step: list[np.ndarray]) -> None:
         """Keep what is good enough, shorten what is not; choose the level of the next element."""
-        k = len(which)
-        on_mesh = level == 0 and self.theta > 0
-        sizes = (
-            np.abs(VALUES_AND_LAST @ values.reshape(k, -1, P, 4)).max(axis=1)
-            if on_mesh
-            else np.abs(VALUES_AND_LAST @ values)
-        )
-        sizes, tails = np.maximum.reduceat(sizes, (0, P), axis=1).transpose(1, 0, 2)
-        largest = np.maximum(self.largest[at], sizes)
-        tails = (tails / largest).max(axis=1).tolist()
+        on_mesh, last = level == 0 and self.theta > 0, step[-len(self._parts(level)) :]
+        found = _largest([np.maximum.reduceat(np.abs(out[:, :END]), PARTS, axis=1) for out in last])
+        found = found.reshape(-1, 3, 2, 2)
+        largest = np.maximum(self.largest[at], found[:, 0])
+        _, middles, tails = np.maximum.reduce(found / largest[:, None], axis=(2, 3)).T.tolist()
         if on_mesh and max(tails) > self.coarse:
             raise _TooCoarse
         good = [j for j, tail in enumerate(tails) if tail <= TAIL or on_mesh]
-        if len(good) < k:
-            for j in set(range(k)) - set(good):
+        if len(good) < len(which):
+            for j in set(range(len(which))) - set(good):
                 self.paces[which[j]].shorten()
             if not good:
                 return
-            which, tails = [which[j] for j in good], [tails[j] for j in good]
-            values, x, xi, largest = values[good], x[good], xi[good], largest[good]
-            at = np.array(which)
-        self._keep(which, at, level, length, values, x, xi)
+            which, middles, tails = ([each[j] for j in good] for each in (which, middles, tails))
+            step, largest, at = [out[good] for out in step], largest[good], np.array(which)
+        self._keep(which, at, level, step)
         self.largest[at] = largest
-        away = self._away(at, values, largest) if self.t_end is None else tails
-        for i, tail, far, size in zip(which, tails, away, largest.max(axis=1).tolist(), strict=True):
+        judged, unit = self.levels.mesh[-1] if on_mesh else level, self.levels.unit
+        sizes = self._sizes(at, step[-len(last) :], largest)
+        for i, middle, tail, size in zip(which, middles, tails, sizes, strict=True):
             pace = self.paces[i]
-            pace.lengthen(tail, None if self.t_end is None else (self.t_end - pace.t) / self.levels.unit)
+            left = None if self.to_rest else (self.t_end - pace.t) / unit
+            pace.lengthen(judged, middle, tail, pace.t / unit, left)
             # what is asked for at t_end is the right-hand limit
-            arrived = pace.rests(far) if self.t_end is None else pace.t > self.t_end * (1 + 1e-12)
-            if arrived or not size < LARGEST:
+            if pace.rests(size) if self.to_rest else pace.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
                 del self.active[i]
 
-    def _away(self, at, values: np.ndarray, largest: np.ndarray) -> list[float]:
-        """How far from its final value each response gets in the element, over its largest value; inf where far."""
+    def _sizes(self, at, last: list[np.ndarray], largest: np.ndarray) -> list[float]:
+        """How far from rest each response gets, over its largest value; on the way to t_end how large it has been."""
+        if not self.to_rest:
+            return largest.max(axis=(1, 2)).tolist()
         final = self.final[at]
-        near = (np.abs(values[:, -1] - final) <= ROUNDING * largest).all(axis=1)
-        if not near.any():
-            return [math.inf] * len(values)
-        return (np.abs(values - final[:, None]).max(axis=1) / largest).max(axis=1).tolist()
+        away = [np.maximum.reduce(np.abs(out[:, : 2 * P].reshape(-1, 2, P, 2) - final), axis=2) for out in last]
+        return np.maximum.reduce(_largest(away) / largest, axis=(1, 2)).tolist()
 
-    def _keep(self, which: list[int], at, level: int, length: float, values, x, xi) -> None:
+    def _keep(self, which: list[int], at, level: int, step: list[np.ndarray]) -> None:
         """Enter a stretch, and go on from its end."""
-        lengths = tuple(self.theta * part for part in self.levels.shape) if level == 0 and self.theta else (length,)
-        self.stretches.append(Stretch(which, [self.paces[i].t for i in which], lengths, values))
-        self.x[at], self.xi[at] = x, xi
-        self.z[at, -values.shape[1] :] = values[:, :, 2:]
-        for i in which:
-            self.paces[i].t += length
-            self.paces[i].before = level
+        paces, parts = [self.paces[i] for i in which], self._parts(level)
+        intervals = len(step) // len(parts)
+        self.stretches.append(Stretch(which, [pace.t for pace in paces], parts * intervals, step))
+        self.S[at] = step[-1][:, END:]
+        z = np.concatenate([out[:, Z] for out in step[-len(parts) :]], axis=1)
+        self.z[at, -z.shape[1] :] = z
+        for pace in paces:
+            pace.t += intervals * self.levels.length(level)
+            pace.before = level
+
+    def _parts(self, level: int) -> list[float]:
+        """Lengths of the elements of one step of the march."""
+        return self.mesh if level == 0 and self.theta else [self.levels.length(level)]
+
+
+def _largest(arrays: list[np.ndarray]) -> np.ndarray:
+    return arrays[0] if len(arrays) == 1 else np.maximum.reduce(arrays)
 
 
 def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:

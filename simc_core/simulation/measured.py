@@ -9,12 +9,13 @@ start of the element is the matrix K = h a. Each section of the chain (realisati
     a x'' + b x' + c x = v     with W = x'':   (a + b K + c K^2) W = v - b x'_0 - c (x_0 + K x'_0)
            b x' + c x = v      with W = x':    (b + c K) W = v - c x_0
 
-which is the collocation method of the whole chain. Columns of every map: (x_0, w at the nodes).
+which is the collocation method of the whole chain. Columns of every map: (w at the nodes, x_0).
 """
 
 import numpy as np
 
 from simc_core.errors import InvalidParameter
+from simc_core.loop import factored_plant
 from simc_core.plant import Plant
 from simc_core.realisation import Row, sections
 from simc_core.simulation.elements import COLLOCATION, P
@@ -30,15 +31,15 @@ class Measured:
     """
 
     def __init__(self, plant: Plant, tau_F: float, derivative: bool):
+        factored = factored_plant(plant)
         self.gain, self.theta, self.tau_F = plant.k, plant.theta, tau_F
-        self.sections = sections(plant.factored)
+        self.sections = sections(factored)
         self.derivative = derivative
         self.n = sum(2 if den[0] else 1 for _, den in self.sections) + (tau_F > 0)
         if derivative and not tau_F and not self._strictly_proper():
             raise InvalidParameter(
                 f"tau_F must be > 0 for derivative action on a plant whose response starts with a jump, got {tau_F:g}"
             )
-        factored = plant.factored
         filter_ = [-1 / tau_F] if tau_F else []
         self.modes = np.array([*factored.poles, *filter_])
         self.relative_degree = factored.relative_degree
@@ -50,15 +51,15 @@ class Measured:
         return (b2 if a else b1) == 0
 
     def elements(self, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Of single elements: signals (lengths, 4, P, n + P) and states at the end (lengths, n, n + P)."""
+        """Of single elements: signals (lengths, 4, P, P + n) and states at the end (lengths, n, P + n)."""
         n, count = self.n, len(lengths)
         K = lengths[:, None, None] * COLLOCATION
-        v, ends = np.zeros((count, P, n + P)), np.zeros((count, n, n + P))
-        v[:, :, n:] = self.gain * EYE
+        v, ends = np.zeros((count, P, P + n)), np.zeros((count, n, P + n))
+        v[:, :, :P] = self.gain * EYE
         slope, used = np.zeros_like(v), 0
         for num, den in self.sections:
             v, slope, used = _section(num, den, K, v, ends, used)
-        outputs = np.empty((count, SIGNALS, P, n + P))
+        outputs = np.empty((count, SIGNALS, P, P + n))
         outputs[:, 0] = v
         if self.tau_F:
             v, slope, used = _section((0.0, 0.0, 1.0), (0.0, self.tau_F, 1.0), K, v, ends, used)
@@ -72,21 +73,21 @@ def _section(num: Row, den: Row, K: np.ndarray, v: np.ndarray, ends: np.ndarray,
     The slope is right where the section is strictly proper.
     """
     (b2, b1, b0), (a, b, c) = num, den
-    right = v.copy()
-    right[:, :, used] -= c
+    right, x_0 = v.copy(), P + used
+    right[:, :, x_0] -= c
     if not a:
         W = np.linalg.solve(b * EYE + c * K, right) if c else right / b
         x = K @ W
-        x[:, :, used] += 1.0
+        x[:, :, x_0] += 1.0
         ends[:, used] = x[:, -1]
         return (b0 * x + b1 * W if b1 else b0 * x), b0 * W, used + 1
     ramp = K.sum(axis=2)  # K applied to 1
-    right[:, :, used + 1] -= b + c * ramp
+    right[:, :, x_0 + 1] -= b + c * ramp
     W = np.linalg.solve(a * EYE + b * K + c * (K @ K), right)
     first = K @ W
-    first[:, :, used + 1] += 1.0
+    first[:, :, x_0 + 1] += 1.0
     x = K @ first
-    x[:, :, used] += 1.0
+    x[:, :, x_0] += 1.0
     ends[:, used], ends[:, used + 1] = x[:, -1], first[:, -1]
     out = b0 * x + b1 * first + b2 * W if b1 or b2 else b0 * x
     return out, b0 * first + b1 * W, used + 2

@@ -8,12 +8,11 @@
 Without limits this is the law of controllers.py. The tracking time T_t is sqrt(tau_I tau_D), tau_I for PI.
 
 A continuous controller (h = 0) is stepped here with the input linear and the integrals by trapezoids, of second order
-in the step theta/m; jumps at t = 0 and their echoes at k theta stay jumps. A sampled one is in module sampling.
-Only the scalar law above is stepped in Python.
+in the step theta/m; jumps at t = 0 and their echoes at k theta stay jumps. A sampled one is in module sampling. How a
+step is taken: module actuation.
 """
 
 import math
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -24,20 +23,26 @@ from simc_core.errors import InvalidParameter
 from simc_core.loop import Loop
 from simc_core.realisation import chain
 from simc_core.simulation.actuation import (
-    LONGEST_BLOCK,
+    OF_PLANT,
     STEPS,
+    W1,
+    W2,
     Actuation,
     Driven,
     Inputs,
     Stepped,
     affordable,
-    arrival,
     stepped,
     tracking_time,
 )
-from simc_core.simulation.blocks import Linear, blocks
 from simc_core.simulation.march import WELL_POSED
+from simc_core.simulation.one_step import Linear
 from simc_core.simulation.sampling import sampled
+
+# Columns of z behind x. ASKED: u at the start and the end of the step before if there were no limits, GIVEN: as it is.
+# ASKED1 and INTEGRAL lack what u of that step adds to them.   ASK, RATE: see _known, RATE over the whole step.
+INTEGRAL, ASKED0, ASKED1, GIVEN0, GIVEN1, ASK0, ASK1, RATE = OF_LAW = range(8)
+COLUMNS = len(OF_LAW) + len(OF_PLANT)
 
 
 def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Stepped:
@@ -56,76 +61,74 @@ def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inp
     m = max(1, math.ceil(theta * STEPS / inputs.t_end)) if theta else 0
     dt = theta / m if m else inputs.t_end / STEPS
     N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
+    m, n = min(m, N), len(system.B)
+    plant = Driven(system, system.ramp(dt), dt, theta, inputs)
+    law = _law(plant, form.Ki, dt / 2, tracking_time(loop, actuation), at_once=m == 0)
+    z = plant.rows(N + m, n + COLUMNS)
     ask, rate = _known(form, actuation, inputs.setpoint, dt, N)
-    law = _Law(actuation, dt / 2, tracking_time(loop, actuation))
-    run = partial(_delayed, m) if m else _undelayed
-    return stepped(dt, *run(system, form.Ki, law, inputs, dt, ask, rate), dt)
+    z[:N, n + ASK0 : n + RATE], z[:N, n + RATE] = ask, dt / 2 * rate.sum(axis=1)
+    _march(z, n, N, m, law, actuation)
+    now, then = z[:N], z[1 : N + 1]
+    y, v = now @ law.y.T, now @ law.v.T
+    v[:, 1] += then @ law.integral
+    return stepped(dt, y, v, then[:, n + GIVEN0 : n + ASK0], dt)
 
 
-def _delayed(m: int, system: Linear, Ki: float, law: "_Law", inputs: Inputs, dt: float, ask, rate):
-    """y, v, u at starts and ends of the steps, (N, 2) each, where u takes m steps to the plant."""
-    plant = Driven(system, blocks(system, system.ramp(dt), min(m, LONGEST_BLOCK)), dt, m * dt, inputs)
-    N = len(ask)
-    y, v, u = np.zeros((N, 2)), np.zeros((N, 2)), np.zeros((N, 2))
-    now = 0
-    while now < N:
-        until = plant.end_of_block(now, min(N, now + m))
-        late = np.zeros((until - now, 2))
-        if until > m:
-            late[max(m - now, 0) :] = u[max(now - m, 0) : until - m]
-        o = plant(late, now)
-        here = slice(now, until)
-        v[here] = law(ask[here] - o[:, :, 1], rate[here] - Ki * o[:, :, 2])
-        u[here] = v[here].clip(law.low, law.high)
-        y[here] = o[:, :, 0]
-        now = until
-    return y, v, u
+def _march(z: np.ndarray, n: int, N: int, m: int, law: "_Law", actuation: Actuation) -> None:
+    """N steps; u takes m of them to the plant. Columns as memoryviews: an array takes three times as long to index."""
+    low, high, through, ahead = actuation.u_min, actuation.u_max, law.through, law.matrix.dot
+    asked0, asked1, given0, given1 = (memoryview(z[1:, n + k]) for k in (ASKED0, ASKED1, GIVEN0, GIVEN1))
+    w1, w2 = memoryview(z[m:, W1]), memoryview(z[m:, W2])
+    for j, row, head in zip(range(N), z, z[1:, : n + GIVEN0], strict=False):
+        ahead(row, head)
+        u = asked0[j]
+        u = low if u < low else high if u > high else u
+        given0[j] = w1[j] = u
+        u = asked1[j] + through * u
+        given1[j] = w2[j] = low if u < low else high if u > high else u
 
 
-def _undelayed(system: Linear, Ki: float, law: "_Law", inputs: Inputs, dt: float, ask, rate):
-    """The same for theta = 0: outputs at both ends of a step are affine in u there, and u answers to them at once."""
-    (Phi, G1, G2), C, D, n = system.ramp(dt), system.C, system.D, len(system.B)
-    if abs(1 + D[1]) < WELL_POSED:
+class _Law(NamedTuple):
+    """matrix: W.   through: what u at the start of a step adds to what is asked for at its end.
+
+    Rows: y at start and end; v at start and, but for the integral there, at the end; the integral at the start.
+    """
+
+    matrix: np.ndarray
+    through: float
+    y: np.ndarray
+    v: np.ndarray
+    integral: np.ndarray
+
+
+def _law(plant: Driven, Ki: float, half: float, T_t: float, at_once: bool) -> _Law:
+    """The loop over one step, with p = Kp yF + Kd yF' and i = yF at its start (0) and end (1), half a step `half`:
+
+        v0 = ask0 - p0 + I0                   I1 = I0 + RATE - half Ki (i0 + i1) + pull (u0 - v0 + u1 - v1)
+        v1 = ask1 - p1 + I1                   pull = half/T_t
+
+    at_once: no dead time, so that u of this very step is in p, i and y. Both equations are solved for v1 and I1, and
+    v = u for what is asked for. T_t is at least half a step: a shorter one would make the trapezoids ring, this one
+    forgets the excess in one step. Raises InvalidParameter: u answers to itself, and 1 + L(inf) = 0.
+    """
+    system, (_, G1, G2), pull, J = plant.system, plant.step, min(half / T_t, 1.0), half * Ki
+    # What u0 adds to (y, p, i) at once and at the end, u1 at the end; what both add to I1.
+    jump, first, last = at_once * system.D, at_once * (system.C @ G1), at_once * (system.C @ G2 + system.D)
+    if abs(1 + jump[1]) < WELL_POSED:
         raise InvalidParameter("1 + L(inf) must not be zero in a loop without dead time, got 0: u is not defined")
-    N, moved = len(ask), np.concatenate([C, C @ Phi, Phi])
-    extra = np.zeros((N, 2, 3))  # what d adds to the outputs
-    first, kick, whole = arrival(system, dt, 0.0, inputs)
-    extra[whole:] = inputs.disturbance * np.stack([D, C @ (G1 + G2) + D])
-    push = np.zeros((N, n))
-    push[whole:] = inputs.disturbance * (G1 + G2)
-    if kick is not None and first < N:
-        extra[first, 1], push[first] = C @ kick + D * inputs.disturbance, kick
-    ask, rate = (ask - extra[:, :, 1]).tolist(), (rate - Ki * extra[:, :, 2]).tolist()
-    answer = _Answer(*D.tolist(), *(C @ G1).tolist(), *(C @ G2 + D).tolist(), Ki)
-    x, free, v, u = np.zeros(n), [], [], []
-    for j in range(N):
-        out = moved @ x
-        y0, p0, i0, y1, p1, i1 = out[:6].tolist()
-        asked, (a, b) = law.implicit(answer, *ask[j], *rate[j], p0, i0, p1, i1)
-        x = out[6:] + (G1 * a + G2 * b + push[j])
-        free.append((y0, y1))
-        v.append(asked)
-        u.append((a, b))
-    u = np.array(u)
-    y = np.array(free) + extra[:, :, 0]
-    y[:, 0] += D[0] * u[:, 0]
-    y[:, 1] += answer.y_first * u[:, 0] + answer.y_last * u[:, 1]
-    return y, np.array(v), u
-
-
-class _Answer(NamedTuple):
-    """What u at the start (jump, first) and at the end (last) of a step adds to y, Kp yF + Kd yF' and yF."""
-
-    y_jump: float
-    p_jump: float
-    i_jump: float
-    y_first: float
-    p_first: float
-    i_first: float
-    y_last: float
-    p_last: float
-    i_last: float
-    Ki: float
+    of_u0 = (pull * (1 + jump[1] + first[1]) - J * (jump[2] + first[2])) / (1 + pull)
+    of_u1 = (pull * (1 + last[1]) - J * last[2]) / (1 + pull)
+    n = len(G1)
+    rows = np.eye(n + COLUMNS)
+    x, z = rows[:n], rows[n:]
+    x = x + at_once * (np.outer(G1, z[GIVEN0]) + np.outer(G2, z[GIVEN1]))
+    integral = z[INTEGRAL] + of_u0 * z[GIVEN0] + of_u1 * z[GIVEN1]
+    after, (y0, p0, i0), (y1, p1, i1) = plant.over(x, z[OF_PLANT])
+    v0, rest = z[ASK0] - p0 + integral, z[ASK1] - p1  # v1 = rest + I1
+    I1 = (integral + z[RATE] - J * (i0 + i1) - pull * (v0 + rest)) / (1 + pull)
+    own = 1 + last[1] - of_u1  # asked for at the end is the u1 that is v1: own u1 = rest + I1 + (of_u0 - first) u0
+    matrix = np.array([*after, I1, v0 / (1 + jump[1]), (rest + I1) / own])
+    return _Law(matrix, (of_u0 - first[1]) / own, np.array([y0, y1]), np.array([v0, rest]), integral)
 
 
 def _known(
@@ -152,48 +155,6 @@ def _known(
 def _both(values: np.ndarray) -> np.ndarray:
     """Values at the instants as those at the starts and ends of the steps."""
     return np.stack([values[:-1], values[1:]], axis=1)
-
-
-class _Law:
-    """v = ask + I, u = v within its limits, I' = rate + (u - v)/T_t by trapezoids; I is kept from call to call.
-
-    T_t is at least half a step: a shorter one would make the trapezoids ring, this one forgets the excess in one step.
-    """
-
-    def __init__(self, actuation: Actuation, half: float, T_t: float):
-        self.low, self.high = actuation.u_min, actuation.u_max
-        self.half, self.pull, self.integral = half, min(half / T_t, 1.0), 0.0
-
-    def __call__(self, ask: np.ndarray, rate: np.ndarray) -> np.ndarray:
-        """v at starts and ends, (m, 2), like ask and rate. The end is implicit in v, and solved for it."""
-        low, high, pull, integral = self.low, self.high, self.pull, self.integral
-        asked = []
-        gains = (self.half * rate.sum(axis=1)).tolist()
-        for (begin, end), gain in zip(ask.tolist(), gains, strict=True):
-            v = begin + integral
-            first = low if v < low else high if v > high else v
-            w = end + integral + gain + pull * (first - v)  # v at the end less its own pull
-            last = low if w < low else high if w > high else w
-            after = (w + pull * last) / (1 + pull)
-            integral = after - end
-            asked.append((v, after))
-        self.integral = integral
-        return np.array(asked)
-
-    def implicit(self, to: _Answer, ask0, ask1, rate0, rate1, p0, i0, p1, i1) -> tuple[tuple, tuple]:
-        """v and u for one step without dead time; p, i: the outputs at its ends as they would be with u = 0."""
-        low, high, pull, half = self.low, self.high, self.pull, self.half
-        free = ask0 - p0 + self.integral
-        first = min(max(free / (1 + to.p_jump), low), high)
-        v = free - to.p_jump * first
-        rates = rate0 + rate1 - to.Ki * (i0 + i1 + (to.i_jump + to.i_first) * first)
-        known = ask1 - p1 - to.p_first * first
-        w = known + self.integral + half * rates + pull * (first - v)
-        answer = to.p_last + half * to.Ki * to.i_last
-        last = min(max(w / (1 + answer), low), high)
-        after = (w - answer * last + pull * last) / (1 + pull)
-        self.integral = after - known + to.p_last * last
-        return (v, after), (first, last)
 
 
 def _measured(loop: Loop, form: ParallelPid) -> Linear:

@@ -101,12 +101,19 @@ def test_on_the_mt_circle_the_closed_loop_has_that_gain(Mt):
 
 @pytest.mark.parametrize(("Ms", "text"), [(1.4, "1.4"), (1.6, "1.6"), (2.0, "2.0")])
 def test_reference_circles_are_labelled_on_the_circle(Ms, text):
-    record, judged = drawn(TIGHT)
+    record, judged = drawn(Loop(TIGHT.plant, SeriesPid(0.4, 10)))
+    assert judged.Ms < 1.47  # its own circle is not near any of them
     figure = figures.nyquist_figure([("present", record)], judged)
     (label,) = [each for each in figure["data"] if each.get("text") == [text]]
     assert math.hypot(label["x"][0] + 1, label["y"][0]) == pytest.approx(1 / Ms)
     circle = trace(figure, f"Ms {text}")
     assert np.hypot(circle["x"] + 1, circle["y"]) == pytest.approx(np.full(181, 1 / Ms))
+
+
+def test_a_reference_circle_whose_label_the_own_circle_would_cross_is_left_out():
+    record, judged = drawn(TIGHT)  # Ms 1.59
+    names = [each["name"] for each in figures.nyquist_figure([("present", record)], judged)["data"] if "name" in each]
+    assert [name for name in names if name.startswith("Ms 1") or name.startswith("Ms 2")] == ["Ms 1.4", "Ms 2.0"]
 
 
 def test_the_peak_of_s_is_marked_where_it_is():
