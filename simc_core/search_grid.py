@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core.logresponse import Logs, Response, sensitivities
-from simc_core.segments import geometric, ragged
+from simc_core.segments import geometric, ragged, side_by_side
 
 GRID_PER_DECADE = 24
 PHASE_STEP = 0.3
@@ -126,8 +126,7 @@ def _base_grid(responses: Sequence[Response]) -> tuple[np.ndarray, np.ndarray, n
             corners += [1 / response.theta, 4 * math.pi / response.theta]
         ranges.append((1e-2 * min(corners, default=1.0), 1e2 * max(corners, default=1.0)))
         clusters.append([root for root in response.roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)])
-    ranges = np.array(ranges)
-    omega, owner, ends = geometric(ranges[:, 0], ranges[:, 1], GRID_PER_DECADE)
+    omega, owner, ends = side_by_side([geometric(*each, GRID_PER_DECADE) for each in ranges])
     if any(clusters):
         near = [np.concatenate([_cluster(root) for root in roots] or [[]]) for roots in clusters]
         counts = np.array([each.size for each in near])
