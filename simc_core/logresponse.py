@@ -84,33 +84,32 @@ class Together:
         bottom = max(len(response.den) for response in responses)
         rows = [[*r.num, *[ONE] * (top - len(r.num)), *r.den, *[ONE] * (bottom - len(r.den))] for r in responses]
         self.a, self.b, self.c = np.ascontiguousarray(np.array(rows).reshape(len(rows), -1, 3).T)  # (M, n) each
-        self.signs = np.array([1.0] * top + [-1.0] * bottom)
-        self.bends = self.a.any()
-        undamped = (self.a != 0) & (self.b == 0)
-        self.b[undamped] = LEAST * np.sqrt(np.abs(self.a * self.c))[undamped]
-        self.thetas = np.array([response.theta for response in responses])
-        self.sizes = np.array([math.log(abs(response.gain)) for response in responses])
-        self.turns = np.array([-math.pi if response.gain < 0 else 0.0 for response in responses])
+        self.signs = np.array([1.0] * top + [-1.0] * bottom, dtype=complex)
+        self.bends = any(a for row in rows for a, _, _ in row)
+        if self.bends:
+            undamped = (self.a != 0) & (self.b == 0)
+            self.b[undamped] = LEAST * np.sqrt(np.abs(self.a * self.c))[undamped]
+        self.delays = np.array([1j * response.theta for response in responses])
+        self.sizes = np.array([complex(math.log(abs(r.gain)), -math.pi if r.gain < 0 else 0.0) for r in responses])
 
     def log_derivatives(self, omega: np.ndarray, owner: np.ndarray | None = None) -> Logs:
         """As in Response, of the response owner[i] at omega[i]; with one response owner does not matter."""
-        a, b, c, theta, size, turn = self.a, self.b, self.c, self.thetas, self.sizes, self.turns
-        if theta.size > 1:
-            b, c, theta, size, turn = b[:, owner], c[:, owner], theta[owner], size[owner], turn[owner]
+        a, b, c, size, delay = self.a, self.b, self.c, self.sizes, self.delays
+        if size.size > 1:
+            b, c, size, delay = b[:, owner], c[:, owner], size[owner], delay[owner]
             a = a[:, owner] if self.bends else a
-        q = np.empty((len(a), omega.size), dtype=complex)
+        q, parts = np.empty((len(a), omega.size), dtype=complex), np.empty((3, len(a), omega.size), dtype=complex)
         q.real, q.imag = c - a * (omega * omega) if self.bends else c, b * omega
         inverse = 1 / q
-        slope = (b + 2j * a * omega if self.bends else b) * inverse
-        bend = slope * slope
+        parts[0].real, parts[0].imag = np.log(np.abs(q)), np.arctan2(q.imag, q.real)
+        np.multiply(1j * b - 2 * a * omega if self.bends else 1j * b, inverse, out=parts[1])
+        np.multiply(parts[1], parts[1], out=parts[2])
         if self.bends:
-            bend -= 2 * a * inverse
-        log = np.empty(omega.size, dtype=complex)
-        log.real = self.signs @ np.log(np.abs(q)) + size
-        log.imag = self.signs @ np.angle(q) + (turn - theta * omega)
-        first = self.signs @ slope
-        first -= theta
-        return log, 1j * first, self.signs @ bend
+            parts[2] += 2 * a * inverse
+        logs = self.signs @ parts
+        logs[0] += size - delay * omega
+        logs[1] -= delay
+        return logs[0], logs[1], -logs[2]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -186,7 +185,7 @@ class Series:
 
 def sensitivities(log: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """S and T from log L, also where L overflows."""
-    if np.max(log.real, initial=0.0) > LARGEST:
+    if np.maximum.reduce(log.real, initial=0.0) > LARGEST:
         log = np.minimum(log.real, LARGEST) + 1j * log.imag
     L = np.exp(log)
     S = 1 / (1 + L)

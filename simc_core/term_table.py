@@ -24,10 +24,12 @@ import numpy as np
 class Table:
     """For K products of M factors; see the module docstring.
 
-    exponents (K, M), above: their positive part.   counts (K, 1): number of factors.   pairs (U, M): +1 and -1 of the
-    two factors of each.   terms, sizes (K, V): log|P_k| from the parts, and with |exponents|.
-    bounds (K (K - 1) + K + 2 M, 2 V): upper bounds, of log|P_i/P_k| for i != k, k after k, of log|P_k|, and of
-    -log|q_m|, where it is smallest and where it is largest.   rates (K, 2 M): |P_k'/P_k| from |q_m'/q_m|, in that order.
+    exponents (K, M), above: their positive part.   counts (K, 1): number of factors.
+    pairs (U, M): +1 and -1 of the two factors of each.
+    terms, sizes (K, V): log|P_k| from the parts, and the same with |exponents|.
+    bounds (K K + 2 M, 2 V): upper bounds of log|P_i/P_k| for i != k, k after k, then of log|P_k|, then of log 1/|q_m|
+    where |q_m| is largest, and where it is smallest.
+    rates (K, 2 M): bound of |P_k'/P_k| from |q_m'/q_m| in that order.
     """
 
     exponents: np.ndarray
