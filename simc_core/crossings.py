@@ -28,6 +28,7 @@ from simc_core.search_grid import Evaluate, Grid, sampled, search_grid
 TOGETHER = 32  # loops; more do not fit the cache
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
 SETTLED = 1e-7  # in widths of the bracket: Newton squares it
+PEAK_SETTLED = 1e-6  # the same, where the height is as good as final
 ROUNDING = 4e-16
 CLOSE = 1e-6  # arg(-L) at a phase crossing is smaller
 FAR = 99.0  # |log|L|| at a phase crossing is smaller
@@ -86,8 +87,10 @@ class _Brackets(NamedTuple):
 def _search(responses: Sequence[Response], evaluate: Evaluate) -> list[Crossings]:
     n, grid = len(responses), search_grid(responses, evaluate)
     values, slopes = _functions(grid.samples)
-    brackets = _brackets(grid, values, slopes)
-    hidden = _hidden(evaluate, grid, values)
+    below = values < 0
+    changes = below[:, :-1] != below[:, 1:]
+    brackets = _brackets(grid, values, slopes, changes)
+    hidden = _hidden(evaluate, grid, values, slopes, changes)
     if hidden:
         joined = [np.concatenate(pair, axis=-1) for pair in zip(brackets, hidden, strict=True)]
         order = np.lexsort((joined[2][0], joined[1], joined[0]))
@@ -118,10 +121,9 @@ def _functions(samples: np.ndarray) -> np.ndarray:
     return np.array([values, (first.real, first.imag, -(T * second + bend).real, (S * second - bend).real)])
 
 
-def _brackets(grid: Grid, values: np.ndarray, slopes: np.ndarray) -> _Brackets:
-    """Between nodes. Where the grid does not resolve the phase, only |L| is looked at."""
-    below = values < 0
-    holds = below[:, :-1] != below[:, 1:]
+def _brackets(grid: Grid, values: np.ndarray, slopes: np.ndarray, changes: np.ndarray) -> _Brackets:
+    """Between nodes where a function changes its sign. Where the grid does not resolve the phase: only |L| = 1."""
+    holds = changes.copy()
     holds[PHASE] &= np.abs(values[PHASE, :-1] - values[PHASE, 1:]) < math.pi  # arg(-L) = 0, not its jump at pi
     peaks = values[S_PEAK:]
     holds[S_PEAK:] &= (peaks[:, :-1] - peaks[:, 1:]) * grid.omega[1:] > FLAT  # not valleys
@@ -132,11 +134,13 @@ def _brackets(grid: Grid, values: np.ndarray, slopes: np.ndarray) -> _Brackets:
     return _Brackets(kind, grid.owner[at], grid.omega[ends], values[kind, ends], slopes[kind, ends])
 
 
-def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | None:
-    """Left and right of the extrema of log|L| or arg(-L) between two nodes, where these are beyond zero."""
-    values, slopes = values[:2], np.array([grid.samples[1].real, grid.samples[1].imag])
-    trend = values * slopes
-    kind, at = np.nonzero((trend[:, :-1] < 0) & (trend[:, 1:] > 0) & grid.inside)
+def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray, slopes: np.ndarray, changes: np.ndarray):
+    """Brackets left and right of the extrema of log|L| or arg(-L) between two nodes that are beyond zero, or None."""
+    trend = values[:S_PEAK] * slopes[:S_PEAK]
+    turns = (trend[:, :-1] < 0) & (trend[:, 1:] > 0) & ~changes[:S_PEAK]
+    if not turns.any():
+        return None
+    kind, at = np.nonzero(turns & grid.inside)
     ends = np.array([at, at + 1])
     outer, omega = values[kind, ends], grid.omega[ends]
     reach = np.abs(outer) < np.abs(slopes[kind, ends]) * (omega[1] - omega[0])
@@ -154,7 +158,7 @@ def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | N
         return parts(samples[1]), parts(samples[2]), samples
 
     ends = grid.samples[:, [at, at + 1]]
-    middle, _, samples = _zeros(slope, omega, parts(ends[1]), parts(ends[2]))
+    middle, _, samples = _zeros(slope, omega, parts(ends[1]), parts(ends[2]), PEAK_SETTLED)
     inner = np.where(is_gain, samples[0].real, from_negative(samples[0]))
     i = np.flatnonzero(inner * outer < 0)
     if not i.size:
@@ -175,7 +179,7 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
         samples = sampled(evaluate, omega, owner)
         return *_functions(samples)[:, kind, each], samples
 
-    omega, step, known = _zeros(function, *ends)
+    omega, step, known = _zeros(function, *ends, np.where(kind < S_PEAK, SETTLED, PEAK_SETTLED))
     log = known[0] + step * known[1]
     S, T = sensitivities(log)
     phase = from_negative(log)
@@ -184,14 +188,14 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
     return omega + step, what, ~at_root
 
 
-def _zeros(function: Callable, ends: np.ndarray, values: np.ndarray, slopes: np.ndarray):
+def _zeros(function: Callable, ends: np.ndarray, values: np.ndarray, slopes: np.ndarray, settled: np.ndarray | float):
     """Zeros of `function` between `ends`, by the steps of the module docstring. All of them of shape (2, n).
 
-    function: value and slope at omega, and what else is known there.   Returns the last omega, the Newton step from
-    there to the zero, and what is known at omega.
+    function: value and slope at omega, and what else is known there.   settled: a Newton step that may be the last, in
+    widths of the bracket.   Returns the last omega, the Newton step from there to the zero, and what is known at omega.
     """
     low, high = ends
-    small = np.maximum(SETTLED * (high - low), ROUNDING * high)  # the grid resolves what bends the function
+    small = np.maximum(settled * (high - low), ROUNDING * high)  # the grid resolves what bends the function
     done, omega = np.zeros(low.size, dtype=bool), low
     with np.errstate(divide="ignore", invalid="ignore"):
         for number in range(STEPS):
@@ -204,9 +208,7 @@ def _zeros(function: Callable, ends: np.ndarray, values: np.ndarray, slopes: np.
                 break
             below = (value < 0) == (values[0] < 0)
             new, old = np.array([below, ~below]), (omega, value, slope)
-            ends, values, slopes = (
-                np.where(new, x, kept) for x, kept in zip(old, (ends, values, slopes), strict=True)
-            )
+            ends, values, slopes = (np.where(new, x, kept) for x, kept in zip(old, (ends, values, slopes), strict=True))
     return omega, np.where(near, step, 0.0), known
 
 
