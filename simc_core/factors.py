@@ -98,7 +98,7 @@ def without_common(one: Sequence[Row], other: Sequence[Row]) -> tuple[list[Row],
 
 def degree(rows: Iterable[Row]) -> int:
     """Degree of the product."""
-    return sum(2 if a else 1 if b else 0 for a, b, _ in rows)
+    return sum([2 if a else 1 if b else 0 for a, b, _ in rows])
 
 
 def roots_of(rows: Iterable[Row]) -> list[complex]:

@@ -61,7 +61,7 @@ class FactoredResponse:
         num, den, _ = without_common(rows_of(L.num), rows_of(L.den))
         self.theta = L.theta
         self.roots = [root for root in roots_of(num + den) if root]
-        origin = sum(c == 0 for *_, c in num) - sum(c == 0 for *_, c in den)
+        origin = [c for _, _, c in num].count(0.0) - [c for _, _, c in den].count(0.0)
         self.at_zero = Asymptote(product(L.gain, [c or b for _, b, c in num], [c or b for _, b, c in den]), origin)
         leading = product(L.gain, [a or b or c for a, b, c in num], [a or b or c for a, b, c in den])
         self.at_infinity = Asymptote(leading, degree(num) - degree(den))

@@ -49,7 +49,7 @@ def windings(functions: Sequence[Characteristic]) -> list[Winding]:
     """The same of many, those with equal tables of exponents together. One that is refused refuses all."""
     alike: dict[tuple, list[int]] = {}
     for i, f in enumerate(functions):
-        alike.setdefault((f.exponents, tuple(row[0] != 0 for row in f.rows)), []).append(i)
+        alike.setdefault((f.exponents, tuple([row[0] != 0 for row in f.rows])), []).append(i)
     found: dict[int, Winding] = {}
     for members in alike.values():
         for start in range(0, len(members), TOGETHER):
