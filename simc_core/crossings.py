@@ -30,7 +30,6 @@ FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
 SETTLED = 1e-7  # in widths of the bracket: Newton squares it
 PEAK_SETTLED = 1e-6  # the same, where the height is as good as final
 ROUNDING = 4e-16
-CLOSE = 1e-6  # arg(-L) at a phase crossing is smaller
 FAR = 99.0  # |log|L|| at a phase crossing is smaller
 STEPS = 70  # of the polishing; two are usual
 SURE = 5  # steps after which every other one halves the bracket
@@ -74,27 +73,25 @@ def search_many(responses: Sequence[FactoredResponse]) -> list[Crossings]:
 class _Brackets(NamedTuple):
     """Intervals that hold a zero of the function `kind` of loop `owner`, shape (n,), ordered by these and by omega.
 
-    omega, value, slope: both ends, the function there and its derivative, shape (2, n).
+    ends: omega, the function and its derivative at both ends, shape (3, 2, n).
     """
 
     kind: np.ndarray
     owner: np.ndarray
-    omega: np.ndarray
-    value: np.ndarray
-    slope: np.ndarray
+    ends: np.ndarray
 
 
 def _search(responses: Sequence[Response], evaluate: Evaluate) -> list[Crossings]:
     n, grid = len(responses), search_grid(responses, evaluate)
-    values, slopes = _functions(grid.samples)
-    below = values < 0
+    functions = _functions(grid.samples)
+    below = functions[0] < 0
     changes = below[:, :-1] != below[:, 1:]
-    brackets = _brackets(grid, values, slopes, changes)
-    hidden = _hidden(evaluate, grid, values, slopes, changes)
+    brackets = _brackets(grid, functions, changes)
+    hidden = _hidden(evaluate, grid, functions, changes)
     if hidden:
-        joined = [np.concatenate(pair, axis=-1) for pair in zip(brackets, hidden, strict=True)]
-        order = np.lexsort((joined[2][0], joined[1], joined[0]))
-        brackets = _Brackets(*(each[..., order] for each in joined))
+        kind, owner, ends = (np.concatenate(pair, axis=-1) for pair in zip(brackets, hidden, strict=True))
+        order = np.lexsort((ends[0, 0], owner, kind))
+        brackets = _Brackets(kind[order], owner[order], ends[..., order])
     omega, what, kept = _polished(evaluate, brackets)
     place = brackets.kind * n + brackets.owner
     if not kept.all():
@@ -115,15 +112,15 @@ def from_negative(log: np.ndarray) -> np.ndarray:
 def _functions(samples: np.ndarray) -> np.ndarray:
     """The four functions whose zeros are sought, and their derivatives, shape (2, 4, n)."""
     log, first, second, S, T = samples
-    falling, rising = T * first, S * first
-    bend = falling * rising
-    values = log.real, from_negative(log), -falling.real, rising.real
-    return np.array([values, (first.real, first.imag, -(T * second + bend).real, (S * second - bend).real)])
+    of_S, of_T = T * first, S * first
+    bend = T * second + of_S * of_T
+    values = [log.real, from_negative(log), -of_S.real, of_T.real]
+    return np.array([*values, first.real, first.imag, -bend.real, (second - bend).real]).reshape(2, 4, -1)
 
 
-def _brackets(grid: Grid, values: np.ndarray, slopes: np.ndarray, changes: np.ndarray) -> _Brackets:
+def _brackets(grid: Grid, functions: np.ndarray, changes: np.ndarray) -> _Brackets:
     """Between nodes where a function changes its sign. Where the grid does not resolve the phase: only |L| = 1."""
-    holds = changes.copy()
+    holds, values = changes.copy(), functions[0]
     holds[PHASE] &= np.abs(values[PHASE, :-1] - values[PHASE, 1:]) < math.pi  # arg(-L) = 0, not its jump at pi
     peaks = values[S_PEAK:]
     holds[S_PEAK:] &= (peaks[:, :-1] - peaks[:, 1:]) * grid.omega[1:] > FLAT  # not valleys
@@ -131,12 +128,13 @@ def _brackets(grid: Grid, values: np.ndarray, slopes: np.ndarray, changes: np.nd
     holds[GAIN] &= grid.inside
     kind, at = np.nonzero(holds)
     ends = np.array([at, at + 1])
-    return _Brackets(kind, grid.owner[at], grid.omega[ends], values[kind, ends], slopes[kind, ends])
+    return _Brackets(kind, grid.owner[at], np.concatenate([grid.omega[None, ends], functions[:, kind, ends]]))
 
 
-def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray, slopes: np.ndarray, changes: np.ndarray):
-    """Brackets left and right of the extrema of log|L| or arg(-L) between two nodes that are beyond zero, or None."""
-    trend = values[:S_PEAK] * slopes[:S_PEAK]
+def _hidden(evaluate: Evaluate, grid: Grid, functions: np.ndarray, changes: np.ndarray) -> _Brackets | None:
+    """Left and right of the extrema of log|L| or arg(-L) between two nodes, where these are beyond zero."""
+    values, slopes = functions[:, :S_PEAK]
+    trend = values * slopes
     turns = (trend[:, :-1] < 0) & (trend[:, 1:] > 0) & ~changes[:S_PEAK]
     if not turns.any():
         return None
@@ -157,70 +155,68 @@ def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray, slopes: np.ndarr
         samples = sampled(evaluate, omega, owner)
         return parts(samples[1]), parts(samples[2]), samples
 
-    ends = grid.samples[:, [at, at + 1]]
-    middle, _, samples = _zeros(slope, omega, parts(ends[1]), parts(ends[2]), PEAK_SETTLED)
-    inner = np.where(is_gain, samples[0].real, from_negative(samples[0]))
-    i = np.flatnonzero(inner * outer < 0)
+    samples = grid.samples[:, [at, at + 1]]
+    middle, _, _, inner = _zeros(slope, np.array([omega, parts(samples[1]), parts(samples[2])]), PEAK_SETTLED)
+    i = np.flatnonzero(np.where(is_gain, inner[0].real, from_negative(inner[0])) * outer < 0)
     if not i.size:
         return None
     kind = kind[i]
-    three = [(omega[0], ends[:, 0]), (middle, samples), (omega[1], ends[:, 1])]
-    points = [(x[i], *_functions(known[:, i])[:, kind, np.arange(i.size)]) for x, known in three]
-    low, high = (np.concatenate(pair, axis=-1) for pair in (points[:2], points[1:]))
-    return _Brackets(np.tile(kind, 2), np.tile(owner[i], 2), *np.stack([low, high], axis=1))
+    three = [(omega[0], samples[:, 0]), (middle, inner), (omega[1], samples[:, 1])]
+    points = np.array([[x[i], *_functions(known[:, i])[:, kind, np.arange(i.size)]] for x, known in three])
+    ends = np.array([points[:2], points[1:]])  # (2 brackets, 2 ends, 3, n)
+    return _Brackets(np.tile(kind, 2), np.tile(owner[i], 2), np.concatenate(ends, axis=-1).swapaxes(0, 1))
 
 
 def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """omega of the zeros to full precision, what is there (see Crossings), and False at those to be left out, (n,)."""
-    kind, owner, *ends = brackets
+    kind, owner, ends = brackets
     each = np.arange(kind.size)
 
     def function(omega):
         samples = sampled(evaluate, omega, owner)
         return *_functions(samples)[:, kind, each], samples
 
-    omega, step, known = _zeros(function, *ends, np.where(kind < S_PEAK, SETTLED, PEAK_SETTLED))
+    omega, step, near, known = _zeros(function, ends, np.where(kind < S_PEAK, SETTLED, PEAK_SETTLED))
     log = known[0] + step * known[1]
     S, T = sensitivities(log)
-    phase = from_negative(log)
-    what = np.array([phase, np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])[kind, each]
-    at_root = (kind == PHASE) & ((np.abs(phase) > CLOSE) | (np.abs(log.real) > FAR))  # an undamped one: a jump by pi
-    return omega + step, what, ~at_root
+    what = np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])[kind, each]
+    crossed = near & (np.abs(log.real) < FAR)  # no jump by pi at an undamped root
+    return omega + step, what, crossed | (kind != PHASE)
 
 
-def _zeros(function: Callable, ends: np.ndarray, values: np.ndarray, slopes: np.ndarray, settled: np.ndarray | float):
-    """Zeros of `function` between `ends`, by the steps of the module docstring. All of them of shape (2, n).
+def _zeros(function: Callable, ends: np.ndarray, settled: np.ndarray | float):
+    """Zeros of `function` in brackets, by the steps of the module docstring.
 
-    function: value and slope at omega, and what else is known there.   settled: a Newton step that may be the last, in
-    widths of the bracket.   Returns the last omega, the Newton step from there to the zero, and what is known at omega.
+    function: value and slope at omega, and what else is known there.   ends: omega, value, slope at both, (3, 2, n).
+    settled: a Newton step that may be the last, in widths of the bracket.   Returns the last omega, the Newton step from
+    there to the zero, whether there is one, and what is known at omega.
     """
-    low, high = ends
+    low, high = ends[0]
     small = np.maximum(settled * (high - low), ROUNDING * high)  # the grid resolves what bends the function
-    done, omega = np.zeros(low.size, dtype=bool), low
     with np.errstate(divide="ignore", invalid="ignore"):
+        omega = _guess(*ends)
         for number in range(STEPS):
-            omega = np.where(done, omega, _guess(ends, values, slopes, number > SURE and number % 2))
             value, slope, known = function(omega)
             step = -value / slope
-            near = np.abs(step) <= small
-            done |= near | (value == 0) | (ends[1] - ends[0] <= ROUNDING * omega)
+            near = done = np.abs(step) <= small
+            if number > SURE:
+                done = near | (ends[0, 1] - ends[0, 0] <= ROUNDING * omega)
             if done.all():
                 break
-            below = (value < 0) == (values[0] < 0)
-            new, old = np.array([below, ~below]), (omega, value, slope)
-            ends, values, slopes = (np.where(new, x, kept) for x, kept in zip(old, (ends, values, slopes), strict=True))
-    return omega, np.where(near, step, 0.0), known
+            below = (value < 0) == (ends[1, 0] < 0)
+            ends = np.where([below, ~below], np.array([omega, value, slope])[:, None], ends)
+            halve = number > SURE and number % 2
+            omega = np.where(done, omega, np.sqrt(ends[0, 0] * ends[0, 1]) if halve else _guess(*ends))
+    return omega, np.where(near, step, 0.0), near, known
 
 
-def _guess(ends: np.ndarray, values: np.ndarray, slopes: np.ndarray, halve: bool) -> np.ndarray:
-    """The cubic of the module docstring at zero; the middle of the bracket if that is outside, or to `halve`."""
-    low, high = ends
-    middle = np.sqrt(low * high)
-    if halve:
-        return middle
+def _guess(omega: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """The cubic of the module docstring at zero; the middle of the bracket where that is outside."""
+    low, high = omega
     width, rise = high - low, values[1] - values[0]
     part = -values[0] / rise
     rest = 1 - part
     left, right = rise / slopes - width
     cubic = low + part * (width + rest * (rest * left - part * right))
-    return np.where((cubic > low) & (cubic < high), cubic, middle)
+    inside = (cubic > low) & (cubic < high)
+    return cubic if inside.all() else np.where(inside, cubic, np.sqrt(low * high))
