@@ -9,6 +9,7 @@ multiplied out: an order-8 polynomial has lost its small time constants to round
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import numpy as np
 
@@ -36,15 +37,17 @@ class Factored:
     def __call__(self, s) -> np.ndarray:
         """F(s), complex, shape of s. On a pole the value is infinite, without a warning."""
         s = np.asarray(s, dtype=complex)
+        value = np.full(s.shape, complex(self.gain))
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            value = np.full(s.shape, complex(self.gain))
             # a numerator and a denominator factor in turn, so that no partial product overflows
-            for i in range(max(len(self.num), len(self.den))):
-                if i < len(self.num):
-                    value = value * _factor(self.num[i], s)
-                if i < len(self.den):
-                    value = value / _factor(self.den[i], s)
-            return value * np.exp(-self.theta * s) if self.theta else value
+            for above, below in zip_longest(self.num.tolist(), self.den.tolist()):
+                if above:
+                    value *= _factor(above, s)
+                if below:
+                    value /= _factor(below, s)
+            if self.theta:
+                value *= np.exp(-self.theta * s)
+        return value[()]
 
     @property
     def poles(self) -> np.ndarray:
@@ -68,9 +71,11 @@ def factors(*rows: tuple[float, float, float]) -> np.ndarray:
     return np.array(kept, dtype=float).reshape(-1, 3)
 
 
-def _factor(row: np.ndarray, s: np.ndarray) -> np.ndarray:
+def _factor(row: Sequence[float], s: np.ndarray) -> np.ndarray:
     a, b, c = row
-    return (a * s + b) * s + c if a else b * s + c
+    if a:
+        return (a * s + b) * s + c
+    return b * s + c if c else b * s
 
 
 def rows_of(array: np.ndarray) -> list[Row]:
