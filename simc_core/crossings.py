@@ -15,6 +15,7 @@ What is there takes the place of one end, and so on; the last step is Newton's. 
 """
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -63,11 +64,16 @@ def search(response: Response) -> Crossings:
 
 def search_many(responses: Sequence[FactoredResponse]) -> list[Crossings]:
     """The same for each of `responses`, worked on together."""
-    found: list[Crossings] = []
-    for start in range(0, len(responses), TOGETHER):
-        some = responses[start : start + TOGETHER]
-        found += _search(some, Together(some).log_derivatives)
-    return found
+    alike: dict[tuple[int, int], list[int]] = defaultdict(list)
+    for i, response in enumerate(responses):
+        alike[len(response.zeros), len(response.poles)].append(i)
+    found: dict[int, Crossings] = {}
+    for members in alike.values():
+        for start in range(0, len(members), TOGETHER):
+            some = members[start : start + TOGETHER]
+            chosen = [responses[i] for i in some]
+            found |= zip(some, _search(chosen, Together(chosen).log_derivatives), strict=True)
+    return [found[i] for i in range(len(responses))]
 
 
 class _Brackets(NamedTuple):
@@ -83,7 +89,7 @@ class _Brackets(NamedTuple):
 
 def _search(responses: Sequence[Response], evaluate: Evaluate) -> list[Crossings]:
     n, grid = len(responses), search_grid(responses, evaluate)
-    functions = _functions(grid.samples)
+    functions = _functions(*grid.samples)
     below = functions[0] < 0
     changes = below[:, :-1] != below[:, 1:]
     brackets = _brackets(grid, functions, changes)
@@ -95,9 +101,9 @@ def _search(responses: Sequence[Response], evaluate: Evaluate) -> list[Crossings
     omega, what, kept = _polished(evaluate, brackets)
     place = brackets.kind * n + brackets.owner
     if not kept.all():
-        omega, what, place = omega[kept], what[kept], place[kept]
+        omega, what, place = omega[kept], what[:, kept], place[kept]
     edges = place.searchsorted(np.arange(4 * n + 1)).tolist()
-    parts = [(omega[i:j], what[i:j]) for i, j in pairwise(edges)]
+    parts = [(omega[i:j], what[k // n, i:j]) for k, (i, j) in enumerate(pairwise(edges))]
     return [
         Crossings(*parts[i], *parts[n + i], *parts[2 * n + i], *parts[3 * n + i], envelope)
         for i, envelope in enumerate(grid.envelopes)
@@ -109,9 +115,8 @@ def from_negative(log: np.ndarray) -> np.ndarray:
     return math.pi - (-log.imag) % math.tau
 
 
-def _functions(samples: np.ndarray) -> np.ndarray:
+def _functions(log, first, second, S, T) -> np.ndarray:
     """The four functions whose zeros are sought, and their derivatives, shape (2, 4, n)."""
-    log, first, second, S, T = samples
     of_S, of_T = T * first, S * first
     bend = T * second + of_S * of_T
     values = [log.real, from_negative(log), -of_S.real, of_T.real]
@@ -162,24 +167,25 @@ def _hidden(evaluate: Evaluate, grid: Grid, functions: np.ndarray, changes: np.n
         return None
     kind = kind[i]
     three = [(omega[0], samples[:, 0]), (middle, inner), (omega[1], samples[:, 1])]
-    points = np.array([[x[i], *_functions(known[:, i])[:, kind, np.arange(i.size)]] for x, known in three])
+    points = np.array([[x[i], *_functions(*known[:, i])[:, kind, np.arange(i.size)]] for x, known in three])
     ends = np.array([points[:2], points[1:]])  # (2 brackets, 2 ends, 3, n)
     return _Brackets(np.tile(kind, 2), np.tile(owner[i], 2), np.concatenate(ends, axis=-1).swapaxes(0, 1))
 
 
 def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """omega of the zeros to full precision, what is there (see Crossings), and False at those to be left out, (n,)."""
+    """omega of the zeros to full precision, (n,), arg(-L), |L|, |S|, |T| there, (4, n), False at those to leave out."""
     kind, owner, ends = brackets
     each = np.arange(kind.size)
 
     def function(omega):
-        samples = sampled(evaluate, omega, owner)
-        return *_functions(samples)[:, kind, each], samples
+        log, first, second = evaluate(omega, owner)
+        value, slope = _functions(log, first, second, *sensitivities(log))[:, kind, each]
+        return value, slope, (log, first)
 
-    omega, step, near, known = _zeros(function, ends, np.where(kind < S_PEAK, SETTLED, PEAK_SETTLED))
-    log = known[0] + step * known[1]
+    omega, step, near, (log, first) = _zeros(function, ends, np.where(kind < S_PEAK, SETTLED, PEAK_SETTLED))
+    log = log + step * first
     S, T = sensitivities(log)
-    what = np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])[kind, each]
+    what = np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
     crossed = near & (np.abs(log.real) < FAR)  # no jump by pi at an undamped root
     return omega + step, what, crossed | (kind != PHASE)
 
@@ -188,8 +194,8 @@ def _zeros(function: Callable, ends: np.ndarray, settled: np.ndarray | float):
     """Zeros of `function` in brackets, by the steps of the module docstring.
 
     function: value and slope at omega, and what else is known there.   ends: omega, value, slope at both, (3, 2, n).
-    settled: a Newton step that may be the last, in widths of the bracket.   Returns the last omega, the Newton step from
-    there to the zero, whether there is one, and what is known at omega.
+    settled: a Newton step that may be the last, in widths of the bracket.
+    Returns the last omega, the Newton step from there to the zero, whether there is one, and what is known at omega.
     """
     low, high = ends[0]
     small = np.maximum(settled * (high - low), ROUNDING * high)  # the grid resolves what bends the function

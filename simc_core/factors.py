@@ -122,9 +122,15 @@ def product(gain: float, top: Sequence[float], bottom: Sequence[float]) -> float
     above, below = math.prod(top, start=gain), math.prod(bottom)
     if 1e-150 < abs(above) < 1e150 and 1e-150 < abs(below) < 1e150:
         return above / below
-    log = math.log(abs(gain)) + math.fsum(math.log(abs(x)) for x in top) - math.fsum(math.log(abs(x)) for x in bottom)
+    log = log_product(gain, top, bottom)
     negative = sum(x < 0 for x in (gain, *top, *bottom)) % 2
     return math.exp(min(max(log, -700.0), 700.0)) * (-1.0 if negative else 1.0)
+
+
+def log_product(gain: float, top: Sequence[float], bottom: Sequence[float]) -> float:
+    """log|gain prod(top)/prod(bottom)|."""
+    logs = [math.log(abs(x)) for x in (gain, *top)] + [-math.log(abs(x)) for x in bottom]
+    return math.fsum(logs)
 
 
 def quadratic_roots(a: float, b: float, c: float) -> tuple[complex, complex]:

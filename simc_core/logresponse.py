@@ -1,11 +1,13 @@
 """log L(j omega) with its derivatives in closed form: what the search for margins and peaks lives on.
 
-For a product of factors q(s) = a s^2 + b s + c, with s = j omega,
+With zeros and poles r, L = c prod(s - r)/prod(s - r) e^{-theta s}; for each of them, with s = j omega,
 
-    log L = log|gain| + sum log|q| + j (sum atan2(Im q, Re q) - theta omega) ...     numerator +, denominator -
-    d/d omega log q = j q'/q,       d^2/d omega^2 log q = (q'/q)^2 - 2 a/q.
+    log(s - r) = log|omega + j r| + j atan2(omega - Im r, -Re r)
+    d/d omega log(s - r) = 1/(omega + j r),       d^2/d omega^2 log(s - r) = -1/(omega + j r)^2
 
-The argument is continuous in omega as it stands: Im q = b omega never changes sign. Nothing is unwrapped.
+and log L is their sum, zeros +, poles -, with log c - j theta omega. Where a root in the right half plane is passed its
+argument jumps by 2 pi, which is no change; otherwise it is continuous.
+
 A closed inner loop T = L/(1 + L) has log T = -log(1 + 1/L), and with S = 1 - T
 
     (log T)' = S (log L)',          (log T)'' = S (log L)'' - T S (log L)'^2.
@@ -22,12 +24,11 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from simc_core.factors import Factored, degree, product, roots_of, rows_of, without_common
+from simc_core.factors import Factored, log_product, product, roots_of, rows_of, without_common
 
 Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
 
-ONE = (0.0, 0.0, 1.0)
-LEAST = 1e-20  # 2 zeta of an undamped pair, less than rounding, so that no frequency is exactly its own
+LEAST = 1e-20  # zeta of an undamped pair, less than rounding, so that no frequency is exactly its own
 LARGEST = 600.0  # of log|L| where S and T are wanted
 
 
@@ -60,12 +61,14 @@ class FactoredResponse:
     def __init__(self, L: Factored):
         num, den, _ = without_common(rows_of(L.num), rows_of(L.den))
         self.theta = L.theta
-        self.roots = [root for root in roots_of(num + den) if root]
-        origin = [c for _, _, c in num].count(0.0) - [c for _, _, c in den].count(0.0)
+        self.zeros, self.poles = roots_of(num), roots_of(den)
+        self.roots = [root for root in self.zeros + self.poles if root]
+        origin = self.zeros.count(0) - self.poles.count(0)
         self.at_zero = Asymptote(product(L.gain, [c or b for _, b, c in num], [c or b for _, b, c in den]), origin)
-        leading = product(L.gain, [a or b or c for a, b, c in num], [a or b or c for a, b, c in den])
-        self.at_infinity = Asymptote(leading, degree(num) - degree(den))
-        self.gain, self.num, self.den = L.gain, num, den
+        top, bottom = [a or b or c for a, b, c in num], [a or b or c for a, b, c in den]
+        leading = product(L.gain, top, bottom)
+        self.at_infinity = Asymptote(leading, len(self.zeros) - len(self.poles))
+        self.log_leading = complex(log_product(L.gain, top, bottom), -math.pi if leading < 0 else 0.0)
 
     @cached_property
     def _alone(self) -> "Together":
@@ -77,39 +80,33 @@ class FactoredResponse:
 
 
 class Together:
-    """Several FactoredResponses, evaluated together. Lists of different length are filled up with factors 1."""
+    """Several FactoredResponses with as many zeros and as many poles each, evaluated together."""
 
     def __init__(self, responses: Sequence[FactoredResponse]):
-        top = max(len(response.num) for response in responses)
-        bottom = max(len(response.den) for response in responses)
-        rows = [[*r.num, *[ONE] * (top - len(r.num)), *r.den, *[ONE] * (bottom - len(r.den))] for r in responses]
-        self.a, self.b, self.c = np.ascontiguousarray(np.array(rows).reshape(len(rows), -1, 3).T)  # (M, n) each
-        self.signs = np.array([1.0] * top + [-1.0] * bottom, dtype=complex)
-        self.bends = any(a for row in rows for a, _, _ in row)
-        if self.bends:
-            undamped = (self.a != 0) & (self.b == 0)
-            self.b[undamped] = LEAST * np.sqrt(np.abs(self.a * self.c))[undamped]
+        self.signs = np.array([1] * len(responses[0].zeros) + [-1] * len(responses[0].poles), dtype=complex)
+        roots = [[root if root.real or not root else damped(root) for root in r.zeros + r.poles] for r in responses]
+        self.roots = np.array(roots, dtype=complex).T  # (M, n)
         self.delays = np.array([1j * response.theta for response in responses])
-        self.sizes = np.array([complex(math.log(abs(r.gain)), -math.pi if r.gain < 0 else 0.0) for r in responses])
+        self.constants = np.array([response.log_leading for response in responses])
 
     def log_derivatives(self, omega: np.ndarray, owner: np.ndarray | None = None) -> Logs:
         """As in Response, of the response owner[i] at omega[i]; with one response owner does not matter."""
-        a, b, c, size, delay = self.a, self.b, self.c, self.sizes, self.delays
-        if size.size > 1:
-            b, c, size, delay = b[:, owner], c[:, owner], size[owner], delay[owner]
-            a = a[:, owner] if self.bends else a
-        q, parts = np.empty((len(a), omega.size), dtype=complex), np.empty((3, len(a), omega.size), dtype=complex)
-        q.real, q.imag = c - a * (omega * omega) if self.bends else c, b * omega
-        inverse = 1 / q
-        parts[0].real, parts[0].imag = np.log(np.abs(q)), np.arctan2(q.imag, q.real)
-        np.multiply(1j * b - 2 * a * omega if self.bends else 1j * b, inverse, out=parts[1])
+        roots, constant, delay = self.roots, self.constants, self.delays
+        if delay.size > 1:
+            roots, constant, delay = roots[:, owner], constant[owner], delay[owner]
+        from_root = omega + 1j * roots
+        parts = np.empty((3, *from_root.shape), dtype=complex)
+        parts[0].real = np.log(np.abs(from_root))
+        parts[0].imag = np.arctan2(from_root.real, -roots.real)
+        np.divide(1, from_root, out=parts[1])
         np.multiply(parts[1], parts[1], out=parts[2])
-        if self.bends:
-            parts[2] += 2 * a * inverse
-        logs = self.signs @ parts
-        logs[0] += size - delay * omega
-        logs[1] -= delay
-        return logs[0], logs[1], -logs[2]
+        log, first, second = self.signs @ parts
+        return log + (constant - delay * omega), first - delay, -second
+
+
+def damped(root: complex) -> complex:
+    """An undamped root, next to the imaginary axis on the left."""
+    return complex(-LEAST * abs(root), root.imag)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -57,8 +57,10 @@ def search_grid(responses: Sequence[Response], evaluate: Evaluate) -> Grid:
     turns = (omega[1:] - omega[:-1]) * thetas[of]
     coarse = turns > 1.01 * PHASE_STEP
     if coarse.any():
+        starts = [0, *(ends[:-1] + 1).tolist()]
+        loops = [(slice(i, j + 1), r.theta) for i, j, r in zip(starts, ends.tolist(), responses, strict=True)]
+        level, last = np.array([_level(theta, omega[at], samples[:, at]) for at, theta in loops]).T
         size = samples[0].real
-        level, last = _level(thetas, omega, owner, ends, samples)
         coarse &= (np.maximum(size[:-1], size[1:]) >= level[of]) | (omega[1:] <= last[of])
     if coarse.any():
         pieces = np.where(coarse, np.ceil(turns / PHASE_STEP), 1)
@@ -79,19 +81,18 @@ def sampled(evaluate: Evaluate, omega: np.ndarray, owner: np.ndarray) -> np.ndar
     return np.array([*logs, *sensitivities(logs[0])])
 
 
-def _level(thetas, omega, owner, ends, samples) -> tuple[np.ndarray, np.ndarray]:
-    """For each loop: log|L| below which nothing matters, and the frequency up to which everything does.
+def _level(theta: float, omega: np.ndarray, samples: np.ndarray) -> tuple[float, float]:
+    """For one loop: log|L| below which nothing matters, and the frequency up to which everything does.
 
     Beyond the last gain crossing the phase falls by 2 pi within two turns of the dead time: there is a phase crossing.
     """
-    starts = np.concatenate([[0], ends[:-1] + 1])
-    size = samples[0].real
-    Ms, Mt = np.maximum.reduceat(np.abs(samples[3:]), starts, axis=1)
-    start = np.maximum.reduceat(omega * (size >= 0), starts)
-    last = start + 4 * math.pi / np.maximum(thetas, 1e-300)
-    after = starts + np.add.reduceat(omega < last[owner], starts, dtype=int)
-    level = np.minimum(np.log1p(-1 / np.maximum(Ms, 1 + 1e-6)), -np.log1p(1 / Mt))
-    return np.minimum(level, size[np.minimum(after, ends)]), last
+    if theta == 0:
+        return math.inf, 0.0
+    size, (Ms, Mt) = samples[0].real, np.abs(samples[3:]).max(1).tolist()
+    above = np.flatnonzero(size >= 0)
+    last = (omega[above[-1]] if above.size else 0.0) + 4 * math.pi / theta
+    beyond = size[min(omega.searchsorted(last), omega.size - 1)]
+    return min(math.log1p(-1 / max(Ms, 1 + 1e-6)), -math.log1p(1 / Mt), beyond), last
 
 
 def _envelopes(n: int, owner: np.ndarray, size: np.ndarray, beyond: np.ndarray) -> list[tuple[float, float]]:
