@@ -23,6 +23,7 @@ from simc_core.segments import geometric, ragged, side_by_side
 GRID_PER_DECADE = 24
 PHASE_STEP = 0.3
 USUAL = 14.0  # a gain crossing at theta omega = 0.5 or 1, and two turns
+EQUAL = PHASE_STEP * np.arange(round(GRID_PER_DECADE / math.log(10)), round(USUAL / PHASE_STEP))  # theta omega
 MOST_NODES = 12_000  # of one loop
 LIGHT = 0.35  # damping below which a root gets a cluster
 CLUSTER = 1.5 ** np.arange(-4, 40)  # offsets from a resonance, in units of its half width
@@ -136,10 +137,9 @@ def _own_grid(response: Response) -> np.ndarray:
     if not response.theta:
         omega = geometric(first, last, GRID_PER_DECADE)
     else:  # equal steps from where those of the geometric grid are as long
-        step = PHASE_STEP / response.theta
-        equal = step * np.arange(round(GRID_PER_DECADE / math.log(10)), round(USUAL / PHASE_STEP))
-        below, above = geometric(first, equal[0], GRID_PER_DECADE), geometric(equal[-1], last, GRID_PER_DECADE)
-        omega = np.concatenate([below, equal[1:-1], above])
+        begin, end = EQUAL[0] / response.theta, EQUAL[-1] / response.theta
+        below, above = geometric(first, begin, GRID_PER_DECADE), geometric(end, last, GRID_PER_DECADE)
+        omega = np.concatenate([below, EQUAL[1:-1] / response.theta, above])
     return np.sort(np.concatenate([omega, *clusters])) if clusters else omega
 
 

@@ -82,7 +82,9 @@ class Family:
         (K, M), width = t.exponents.shape, nodes.omega[1:] - nodes.omega[:-1]
         n = width.size
         left, right = v.parts[:, :-1], v.parts[:, 1:]
-        ends = np.array([np.minimum(left, right), np.maximum(left, right)])
+        ends = np.empty((2, *left.shape))
+        np.minimum(left, right, out=ends[0])
+        np.maximum(left, right, out=ends[1])
         if self.bends:
             self._put_inner_minimum(ends[0], nodes)
         bounds = np.exp(t.bounds @ ends.reshape(-1, n))
@@ -105,15 +107,17 @@ class Family:
         )
 
     def _values(self, omega: np.ndarray, owner: np.ndarray) -> _Values:
-        t, b, c, gains, thetas = self.table, *(_of(x, owner) for x in (self.b, self.c, self.gains, self.thetas))
+        t, b, real, thetas = self.table, _of(self.b, owner), _of(self.c, owner), _of(self.thetas, owner)
         (K, M), slopes = t.exponents.shape, _of(self.steepness, owner)
-        imag, real = b * omega, c
+        imag = b * omega
         if self.bends:
-            bent = _of(self.a, owner) * (omega * omega)
-            real, slopes = c - bent, slopes + 2 * np.abs(_of(self.a, owner)) * omega
+            a = _of(self.a, owner)
+            bent = a * (omega * omega)
+            full = (np.abs(real) + np.abs(bent)) ** 2 + imag * imag
+            real, slopes = real - bent, slopes + 2 * np.abs(a) * omega
         parts = np.empty((t.terms.shape[1], omega.size))
         parts[:M] = 0.5 * np.log(np.maximum(real * real + imag * imag, SMALLEST**2))
-        parts[M : M + K] = gains
+        parts[M : M + K] = _of(self.gains, owner)
         parts[M + K :] = t.pairs @ parts[:M]
         delays = thetas * omega
         terms = np.empty((K, omega.size), dtype=complex)  # log P_k
@@ -122,7 +126,6 @@ class Family:
         terms = np.exp(terms)  # imag keeps its sign at 0
         noise = np.abs(terms) * (t.sizes @ np.abs(parts) + (delays + (t.counts + 1)))
         if self.bends:  # |q| without the cancellation in c - a omega^2, over |q|: rounding errors grow by that
-            full = (np.abs(c) + np.abs(bent)) ** 2 + imag * imag
             noise *= np.exp(t.above @ (0.5 * np.log(full + SMALLEST**2) - parts[:M]))
         return _Values(parts, slopes, thetas, phase, terms.sum(0), ROUNDING * noise.sum(0) + NOTHING)
 

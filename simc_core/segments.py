@@ -24,8 +24,9 @@ class Nodes:
 
 def geometric(first: float, last: float, per_decade: float) -> np.ndarray:
     """From first to last, both of them exactly."""
-    intervals = int(per_decade * math.log10(last / first)) + 1
-    omega = first * (last / first) ** (np.arange(intervals + 1) / intervals)
+    span = math.log(last / first)
+    intervals = int(per_decade / math.log(10.0) * span) + 1
+    omega = first * np.exp(np.arange(intervals + 1) * (span / intervals))
     omega[-1] = last
     return omega
 

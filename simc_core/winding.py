@@ -62,14 +62,15 @@ def _together(functions: Sequence[Characteristic]) -> list[Winding]:
     """Those with the same table of exponents."""
     n, family = len(functions), Family(functions)
     grid, ends = _first_grid([_range(f) for f in functions])
-    turned, work, touches = np.zeros(n), np.zeros(n), np.full(n, np.nan)
+    turned, work, touches = np.zeros(n), np.zeros(n), np.array([math.nan] * n)
     waiting = [grid]
     with np.errstate(over="ignore", invalid="ignore"):  # between two loops
         while waiting:
             nodes = waiting.pop()
             owner = nodes.owner[1:]
             work += np.bincount(owner, nodes.live, n)
-            _refuse(functions, work)
+            if work.max() > MOST_SEGMENTS:
+                _refuse(functions, work)
             found = family.at(nodes)
             if nodes is grid:
                 last = found.angle[ends].tolist()
@@ -96,12 +97,11 @@ def _verdict(f: Characteristic, turned: float, last: float, touch: float, work: 
 
 
 def _refuse(functions: Sequence[Characteristic], work: np.ndarray) -> None:
-    if work.max() > MOST_SEGMENTS:
-        most = int(work.argmax())
-        raise InvalidParameter(
-            f"the stability certificate must need <= {MOST_SEGMENTS} segments, got {work[most]:.0f}: the loop is too "
-            f"close to |L(inf)| = 1 (here {functions[most].neutral:g}) or its time constants are too far apart"
-        )
+    most = int(work.argmax())
+    raise InvalidParameter(
+        f"the stability certificate must need <= {MOST_SEGMENTS} segments, got {work[most]:.0f}: the loop is too "
+        f"close to |L(inf)| = 1 (here {functions[most].neutral:g}) or its time constants are too far apart"
+    )
 
 
 def _note(nodes: Nodes, zeros: np.ndarray, touches: np.ndarray) -> None:
