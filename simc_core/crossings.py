@@ -31,6 +31,7 @@ FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
 SETTLED = 1e-7  # in widths of the bracket: Newton squares it
 PEAK_SETTLED = 1e-6  # the same, where the height is as good as final
 ROUNDING = 4e-16
+CLOSE = 1e-5  # |arg(-L)| before the last step to a phase crossing is smaller
 FAR = 99.0  # |log|L|| at a phase crossing is smaller
 STEPS = 70  # of the polishing; two are usual
 SURE = 5  # steps after which every other one halves the bracket
@@ -182,11 +183,11 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
         value, slope = _functions(log, first, second, *sensitivities(log))[:, kind, each]
         return value, slope, (log, first)
 
-    omega, step, near, (log, first) = _zeros(function, ends, np.where(kind < S_PEAK, SETTLED, PEAK_SETTLED))
+    omega, step, value, (log, first) = _zeros(function, ends, np.where(kind < S_PEAK, SETTLED, PEAK_SETTLED))
     log = log + step * first
     S, T = sensitivities(log)
     what = np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
-    crossed = near & (np.abs(log.real) < FAR)  # no jump by pi at an undamped root
+    crossed = (np.abs(value) < CLOSE) & (np.abs(log.real) < FAR)  # no jump by pi at an undamped root
     return omega + step, what, crossed | (kind != PHASE)
 
 
@@ -195,7 +196,7 @@ def _zeros(function: Callable, ends: np.ndarray, settled: np.ndarray | float):
 
     function: value and slope at omega, and what else is known there.   ends: omega, value, slope at both, (3, 2, n).
     settled: a Newton step that may be the last, in widths of the bracket.
-    Returns the last omega, the Newton step from there to the zero, whether there is one, and what is known at omega.
+    Returns the last omega, the Newton step from there to the zero, the value at omega, and what else is known there.
     """
     low, high = ends[0]
     small = np.maximum(settled * (high - low), ROUNDING * high)  # the grid resolves what bends the function
@@ -213,7 +214,7 @@ def _zeros(function: Callable, ends: np.ndarray, settled: np.ndarray | float):
             ends = np.where([below, ~below], np.array([omega, value, slope])[:, None], ends)
             halve = number > SURE and number % 2
             omega = np.where(done, omega, np.sqrt(ends[0, 0] * ends[0, 1]) if halve else _guess(*ends))
-    return omega, np.where(near, step, 0.0), near, known
+    return omega, np.where(near, step, 0.0), value, known
 
 
 def _guess(omega: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> np.ndarray:

@@ -93,7 +93,7 @@ def _level(theta: float, omega: np.ndarray, samples: np.ndarray) -> tuple[float,
     above = np.flatnonzero(size >= 0)
     last = (omega[above[-1]] if above.size else 0.0) + 4 * math.pi / theta
     beyond = size[min(omega.searchsorted(last), omega.size - 1)]
-    return min(math.log1p(-1 / max(Ms, 1 + 1e-6)), -math.log1p(1 / Mt), beyond), last
+    return min(math.log1p(-1 / max(Ms, 1 + 1e-6)), -math.log1p(1 / max(Mt, 1e-300)), beyond), last
 
 
 def _envelopes(n: int, owner: np.ndarray, size: np.ndarray, beyond: np.ndarray) -> list[tuple[float, float]]:

@@ -24,7 +24,7 @@ class Nodes:
 
 def geometric(first: float, last: float, per_decade: float) -> np.ndarray:
     """From first to last, both of them exactly."""
-    span = math.log(last / first)
+    span = math.log(last) - math.log(first)
     intervals = int(per_decade / math.log(10.0) * span) + 1
     omega = first * np.exp(np.arange(intervals + 1) * (span / intervals))
     omega[-1] = last
