@@ -108,7 +108,7 @@ def test_limits_that_do_not_exist():
 
 @pytest.mark.parametrize("tau", [0.10156531834357964, 1.0, 1.133159816002351, 7.3])
 def test_the_jump_at_an_undamped_pair_is_no_phase_crossing(tau):
-    """L = s/((T s + 1)(tau^2 s^2 + 1)): its phase jumps from +90 to -90 degrees, less atan(T omega), and stays there."""
+    """L = s/((T s + 1)(tau^2 s^2 + 1)): its phase jumps from 90 to -90 degrees, less atan(T omega), and stays there."""
     m = margins(Loop(Plant(1.0, lag_pairs=((tau, 0.0),)), ParallelPid(0.0, 0.0, 1.0, 0.1 * tau)))
     assert (m.GM, m.GM_lower) == (math.inf, 0.0)
     assert math.isnan(m.omega_180)
