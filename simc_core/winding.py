@@ -23,7 +23,7 @@ from simc_core.segment_bounds import Family
 from simc_core.segments import Nodes, geometric, side_by_side, split
 
 MOST_SEGMENTS = 60_000  # of one loop, about 0.1 s; a usual one needs 30 to 100
-TOGETHER = 64  # loops; more do not fit the cache
+TOGETHER = 40  # loops; more do not fit the cache
 GRID_PER_DECADE = 24
 SHORTEST = 16 * np.finfo(float).eps  # relative length of a segment that no double lies inside
 
