@@ -28,8 +28,7 @@ from simc_core.search_grid import Evaluate, Grid, sampled, search_grid
 
 TOGETHER = 32  # loops; more do not fit the cache
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
-SETTLED = 1e-7  # in widths of the bracket: Newton squares it
-PEAK_SETTLED = 1e-6  # the same, where the height is as good as final
+SETTLED = np.array([1e-7, 1e-7, 1e-6, 1e-6])  # in widths of the bracket: Newton squares it, and peaks are flat
 ROUNDING = 4e-16
 CLOSE = 1e-5  # |arg(-L)| before the last step to a phase crossing is smaller
 FAR = 99.0  # |log|L|| at a phase crossing is smaller
@@ -162,7 +161,7 @@ def _hidden(evaluate: Evaluate, grid: Grid, functions: np.ndarray, changes: np.n
         return parts(samples[1]), parts(samples[2]), samples
 
     samples = grid.samples[:, [at, at + 1]]
-    middle, _, _, inner = _zeros(slope, np.array([omega, parts(samples[1]), parts(samples[2])]), PEAK_SETTLED)
+    middle, _, _, inner = _zeros(slope, np.array([omega, parts(samples[1]), parts(samples[2])]), SETTLED[kind])
     i = np.flatnonzero(np.where(is_gain, inner[0].real, from_negative(inner[0])) * outer < 0)
     if not i.size:
         return None
@@ -183,7 +182,7 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
         value, slope = _functions(log, first, second, *sensitivities(log))[:, kind, each]
         return value, slope, (log, first)
 
-    omega, step, value, (log, first) = _zeros(function, ends, np.where(kind < S_PEAK, SETTLED, PEAK_SETTLED))
+    omega, step, value, (log, first) = _zeros(function, ends, SETTLED[kind])
     log = log + step * first
     S, T = sensitivities(log)
     what = np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
@@ -191,7 +190,7 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
     return omega + step, what, crossed | (kind != PHASE)
 
 
-def _zeros(function: Callable, ends: np.ndarray, settled: np.ndarray | float):
+def _zeros(function: Callable, ends: np.ndarray, settled: np.ndarray):
     """Zeros of `function` in brackets, by the steps of the module docstring.
 
     function: value and slope at omega, and what else is known there.   ends: omega, value, slope at both, (3, 2, n).

@@ -124,7 +124,7 @@ class Family:
         terms.real = t.terms @ parts
         terms.imag = phase = t.exponents @ np.arctan2(imag, real) + (_of(self.turns, owner) - delays)
         terms = np.exp(terms)  # imag keeps its sign at 0
-        noise = np.abs(terms) * (t.sizes @ np.abs(parts) + (delays + (t.counts + 1)))
+        noise = np.abs(terms) * (t.sizes @ np.abs(parts) + (delays + t.counts))
         if self.bends:  # |q| without the cancellation in c - a omega^2, over |q|: rounding errors grow by that
             noise *= np.exp(t.above @ (0.5 * np.log(full + SMALLEST**2) - parts[:M]))
         return _Values(parts, slopes, thetas, phase, terms.sum(0), ROUNDING * noise.sum(0) + NOTHING)

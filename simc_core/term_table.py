@@ -24,7 +24,7 @@ import numpy as np
 class Table:
     """For K products of M factors; see the module docstring.
 
-    exponents (K, M), above: their positive part.   counts (K, 1): number of factors.
+    exponents (K, M), above: their positive part.   counts (K, 1): number of factors, g_k one of them.
     pairs (U, M): +1 and -1 of the two factors of each.
     terms, sizes (K, V): log|P_k| from the parts, and the same with |exponents|.
     bounds (K K + 2 M, 2 V): upper bounds of log|P_i/P_k| for i != k, k after k, then of log|P_k|, then of log 1/|q_m|
@@ -71,7 +71,7 @@ def table(exponents: tuple[tuple[int, ...], ...], first_order: tuple[bool, ...])
         ]
     )
     above, below = np.maximum(e, 0), np.maximum(-e, 0)
-    return Table(e, above, np.abs(e).sum(1, keepdims=True), pairs, terms, sizes, bounds, np.hstack([above, below]))
+    return Table(e, above, np.abs(e).sum(1, keepdims=True) + 1, pairs, terms, sizes, bounds, np.hstack([above, below]))
 
 
 def _ratio(
