@@ -68,7 +68,8 @@ class FactoredResponse:
         top, bottom = [a or b or c for a, b, c in num], [a or b or c for a, b, c in den]
         leading = product(L.gain, top, bottom)
         self.at_infinity = Asymptote(leading, len(self.zeros) - len(self.poles))
-        self.log_leading = complex(log_product(L.gain, top, bottom), -math.pi if leading < 0 else 0.0)
+        size = math.log(abs(leading)) if 1e-300 < abs(leading) < 1e300 else log_product(L.gain, top, bottom)
+        self.log_leading = complex(size, -math.pi if leading < 0 else 0.0)
 
     @cached_property
     def _alone(self) -> "Together":
