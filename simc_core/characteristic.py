@@ -63,29 +63,28 @@ def characteristic(terms: Sequence[Factored]) -> Characteristic:
     common = _union(bottoms)
     corner = _corner(terms, tops, bottoms, common)
     starred = [_starred(row, corner) for row in common]
-    products = [_powers(common, starred)]
-    products += [_powers(top + _difference(common, bottom), starred) for top, bottom in zip(tops, bottoms, strict=True)]
-    degrees = [_degrees(powers) for powers in products]
-    excess = max(zeros - poles for zeros, poles in degrees)
+    above = [common, *[top + _difference(common, bottom) for top, bottom in zip(tops, bottoms, strict=True)]]
+    products = [_powers(each, starred) for each in above]
+    gains = (1.0, *[term.gain for term in terms])
+    ends = [_at_infinity(gain, powers) for gain, powers in zip(gains, products, strict=True)]
+    excess = max([zeros - poles for _, (zeros, poles) in ends])
     if excess > 0:  # over s/corner + 1, until none of them grows at infinity
         extra = (0.0, 1 / corner, 1.0)
         for powers in products:
             powers[extra] = powers.get(extra, 0) - excess
-        degrees = [_degrees(powers) for powers in products]
-    gains = (1.0, *(term.gain for term in terms))
-    thetas = (0.0, *(term.theta for term in terms))
-    leading = tuple(_leading(gain, powers) for gain, powers in zip(gains, products, strict=True))
-    flat = [(c, theta) for c, theta, (zeros, poles) in zip(leading, thetas, degrees, strict=True) if zeros == poles]
-    rows = tuple(dict.fromkeys(row for powers in products for row, power in powers.items() if power))
+        ends = [_at_infinity(gain, powers) for gain, powers in zip(gains, products, strict=True)]
+    thetas = (0.0, *[term.theta for term in terms])
+    flat = [(c, theta) for (c, (zeros, poles)), theta in zip(ends, thetas, strict=True) if zeros == poles]
+    rows = tuple({row: None for powers in products for row, power in powers.items() if power})
     return Characteristic(
         rows,
         tuple([tuple([powers.get(row, 0) for row in rows]) for powers in products]),
         gains,
         thetas,
-        leading,
-        tuple(degrees),
-        math.fsum(c for c, theta in flat if theta == 0),
-        math.fsum(abs(c) for c, theta in flat if theta > 0),
+        tuple([leading for leading, _ in ends]),
+        tuple([degrees for _, degrees in ends]),
+        math.fsum([c for c, theta in flat if theta == 0]),
+        math.fsum([abs(c) for c, theta in flat if theta > 0]),
     )
 
 
@@ -105,22 +104,18 @@ def _powers(top: Iterable[Row], bottom: Iterable[Row]) -> dict[Row, int]:
     return powers
 
 
-def _degrees(powers: dict[Row, int]) -> tuple[int, int]:
-    """Of numerator and denominator."""
-    above = below = 0
-    for (a, b, _), power in powers.items():
+def _at_infinity(gain: float, powers: dict[Row, int]) -> tuple[float, tuple[int, int]]:
+    """c of P ~ c s^n e^{-theta s} at infinity, and the degrees of numerator and denominator, n their difference."""
+    top, bottom, above, below = [], [], 0, 0
+    for (a, b, c), power in powers.items():
         order = 2 if a else 1 if b else 0
         if power > 0:
-            above += power * order
+            top += [a or b or c] * power
+            above += order * power
         else:
-            below -= power * order
-    return above, below
-
-
-def _leading(gain: float, powers: dict[Row, int]) -> float:
-    """c of P ~ c s^n e^{-theta s} at infinity."""
-    top = [a or b or c for (a, b, c), power in powers.items() for _ in range(power)]
-    return product(gain, top, [a or b or c for (a, b, c), power in powers.items() for _ in range(-power)])
+            bottom += [a or b or c] * -power
+            below -= order * power
+    return product(gain, top, bottom), (above, below)
 
 
 def _union(lists: Sequence[list[Row]]) -> list[Row]:
@@ -142,10 +137,10 @@ def _difference(rows: list[Row], less: list[Row]) -> list[Row]:
 
 def _starred(row: Row, corner: float) -> Row:
     """The same degree and size, all roots well inside the left half plane."""
-    a, b, c = (abs(value) for value in row)
+    a, b, c = row
     if a:
-        return a, max(b, WELL_DAMPED * math.sqrt(a * c)), c
-    return (0.0, b, c or corner * b) if b else (0.0, 0.0, c)
+        return abs(a), max(abs(b), WELL_DAMPED * math.sqrt(abs(a * c))), abs(c)
+    return (0.0, abs(b), abs(c) or corner * abs(b)) if b else (0.0, 0.0, abs(c))
 
 
 def _corner(terms, tops: list[list[Row]], bottoms: list[list[Row]], common: list[Row]) -> float:
@@ -163,4 +158,4 @@ def _corner(terms, tops: list[list[Row]], bottoms: list[list[Row]], common: list
 
 
 def _at_origin(rows: list[Row]) -> int:
-    return sum(c == 0 for *_, c in rows)
+    return [c for _, _, c in rows].count(0.0)

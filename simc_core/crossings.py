@@ -6,10 +6,16 @@
 
 with l = log L (module logresponse). They are bracketed by sign changes on a grid (module search_grid).
 A crossing hidden as a pair between two nodes is found by its extremum. All of them together, of all loops that are
-asked for, are then polished by bracketed Newton steps with the derivatives in closed form.
+asked for, are then polished. Values f and slopes f' at both ends a, b of a bracket, in closed form, give omega as a
+cubic in f, which is at f = 0, with p = f_a/(f_a - f_b) and d = (f_b - f_a)/f',
+
+    a + p (b - a) + p (1 - p) [(1 - p) (d_a - (b - a)) - p (d_b - (b - a))].
+
+What is there takes the place of one end, and so on; the last step is Newton's. Two evaluations are usual.
 """
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -18,15 +24,16 @@ from typing import NamedTuple
 import numpy as np
 
 from simc_core.logresponse import LARGEST, FactoredResponse, Response, Together, sensitivities
-from simc_core.search_grid import Evaluate, Grid, search_grid
+from simc_core.search_grid import Evaluate, Grid, sampled, search_grid
 
 TOGETHER = 32  # loops; more do not fit the cache
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
-QUADRATIC = 1e-9  # after a Newton step this small the next would be below rounding
-SETTLED = 5e-15  # the next step would be this small
+SETTLED = np.array([1e-7, 1e-7, 1e-6, 1e-6])  # in widths of the bracket: Newton squares it, and peaks are flat
 ROUNDING = 4e-16
-HUGE = 1e43
-STEPS = 60  # of the polishing; two or three are usual
+CLOSE = 1e-5  # |arg(-L)| before the last step to a phase crossing is smaller
+FAR = 99.0  # |log|L|| at a phase crossing is smaller
+STEPS = 70  # of the polishing; two are usual
+SURE = 5  # steps after which every other one halves the bracket
 GAIN, PHASE, S_PEAK, T_PEAK = range(4)
 
 
@@ -57,161 +64,165 @@ def search(response: Response) -> Crossings:
 
 def search_many(responses: Sequence[FactoredResponse]) -> list[Crossings]:
     """The same for each of `responses`, worked on together."""
-    found: list[Crossings] = []
-    for start in range(0, len(responses), TOGETHER):
-        some = responses[start : start + TOGETHER]
-        found += _search(some, Together(some).log_derivatives)
-    return found
+    alike: dict[tuple[int, int], list[int]] = defaultdict(list)
+    for i, response in enumerate(responses):
+        alike[len(response.zeros), len(response.poles)].append(i)
+    found: dict[int, Crossings] = {}
+    for members in alike.values():
+        for start in range(0, len(members), TOGETHER):
+            some = members[start : start + TOGETHER]
+            chosen = [responses[i] for i in some]
+            found |= zip(some, _search(chosen, Together(chosen).log_derivatives), strict=True)
+    return [found[i] for i in range(len(responses))]
 
 
 class _Brackets(NamedTuple):
-    """Intervals [low, high] that hold a zero of the function `kind` of loop `owner`; start: a guess at it.
+    """Intervals that hold a zero of the function `kind` of loop `owner`, shape (n,), ordered by these and by omega.
 
-    rising: whether the function is negative at low.
+    ends: omega, the function and its derivative at both ends, shape (3, 2, n).
     """
 
-    low: np.ndarray
-    high: np.ndarray
     kind: np.ndarray
     owner: np.ndarray
-    start: np.ndarray
-    rising: np.ndarray
+    ends: np.ndarray
 
 
 def _search(responses: Sequence[Response], evaluate: Evaluate) -> list[Crossings]:
-    grid = search_grid(responses, evaluate)
-    values = _values(*grid.samples)
-    brackets = _brackets(grid, values)
-    hidden = _hidden(evaluate, grid, values)
+    n, grid = len(responses), search_grid(responses, evaluate)
+    functions = _functions(*grid.samples)
+    below = functions[0] < 0
+    changes = below[:, :-1] != below[:, 1:]
+    brackets = _brackets(grid, functions, changes)
+    hidden = _hidden(evaluate, grid, functions, changes)
     if hidden:
-        brackets = _Brackets(*(np.concatenate(pair) for pair in zip(brackets, hidden, strict=True)))
-    kind, owner = brackets.kind, brackets.owner
-    omega, what = _polished(evaluate, brackets)
-    key = 4 * owner + kind
-    jump = (np.abs(what[GAIN]) > 1e-6) | (what[PHASE] < 1 / HUGE) | (what[PHASE] > HUGE)  # at an undamped root
-    order = np.lexsort((omega, key))
-    order = order[~(jump & (kind == PHASE))[order]]
-    omega, what, key = omega[order], what[kind[order], order], key[order]
-    edges = key.searchsorted(np.arange(4 * len(responses) + 1)).tolist()
-    parts = [(omega[i:j], what[i:j]) for i, j in pairwise(edges)]
+        kind, owner, ends = (np.concatenate(pair, axis=-1) for pair in zip(brackets, hidden, strict=True))
+        order = np.lexsort((ends[0, 0], owner, kind))
+        brackets = _Brackets(kind[order], owner[order], ends[..., order])
+    omega, what, kept = _polished(evaluate, brackets)
+    place = brackets.kind * n + brackets.owner
+    if not kept.all():
+        omega, what, place = omega[kept], what[:, kept], place[kept]
+    edges = place.searchsorted(np.arange(4 * n + 1)).tolist()
+    parts = [(omega[i:j], what[k // n, i:j]) for k, (i, j) in enumerate(pairwise(edges))]
     return [
-        Crossings(*parts[4 * i], *parts[4 * i + 1], *parts[4 * i + 2], *parts[4 * i + 3], envelope)
+        Crossings(*parts[i], *parts[n + i], *parts[2 * n + i], *parts[3 * n + i], envelope)
         for i, envelope in enumerate(grid.envelopes)
     ]
 
 
 def from_negative(log: np.ndarray) -> np.ndarray:
     """arg(-L) in (-pi, pi]."""
-    return math.pi - (-log.imag) % (2 * math.pi)
+    return math.pi - (-log.imag) % math.tau
 
 
-def _values(log, first, _, S, T) -> np.ndarray:
-    """The four functions whose zeros are sought, shape (4, n)."""
-    return np.array([log.real, from_negative(log), -(T * first).real, (S * first).real])
+def _functions(log, first, second, S, T) -> np.ndarray:
+    """The four functions whose zeros are sought, and their derivatives, shape (2, 4, n)."""
+    of_S, of_T = T * first, S * first
+    bend = T * second + of_S * of_T
+    values = [log.real, from_negative(log), -of_S.real, of_T.real]
+    return np.array([*values, first.real, first.imag, -bend.real, (second - bend).real]).reshape(2, 4, -1)
 
 
-def _slopes(log, first, second, S, T) -> np.ndarray:
-    """Their derivatives."""
-    bend = T * S * first**2
-    return np.array([first.real, first.imag, -(T * second + bend).real, (S * second - bend).real])
-
-
-def _brackets(grid: Grid, values: np.ndarray) -> _Brackets:
-    """Between nodes. Where the grid does not resolve the phase, only |L| is looked at."""
-    left, right = values[:, :-1], values[:, 1:]
-    holds = (left < 0) != (right < 0)
-    holds[PHASE] &= np.abs(left[PHASE] - right[PHASE]) < math.pi  # arg(-L) = 0, not its jump at pi
-    holds[S_PEAK:] &= (left[S_PEAK:] - right[S_PEAK:]) * grid.omega[1:] > FLAT  # peaks, not valleys
+def _brackets(grid: Grid, functions: np.ndarray, changes: np.ndarray) -> _Brackets:
+    """Between nodes where a function changes its sign. Where the grid does not resolve the phase: only |L| = 1."""
+    holds, values = changes.copy(), functions[0]
+    holds[PHASE] &= np.abs(values[PHASE, :-1] - values[PHASE, 1:]) < math.pi  # arg(-L) = 0, not its jump at pi
+    peaks = values[S_PEAK:]
+    holds[S_PEAK:] &= (peaks[:, :-1] - peaks[:, 1:]) * grid.omega[1:] > FLAT  # not valleys
     holds[PHASE:] &= grid.resolved
     holds[GAIN] &= grid.inside
     kind, at = np.nonzero(holds)
-    low, high, below, above = grid.omega[at], grid.omega[at + 1], left[kind, at], right[kind, at]
-    slopes = _slopes(*grid.samples[:, np.concatenate([at, at + 1])]).reshape(4, 2, -1)[kind, :, np.arange(kind.size)].T
-    return _Brackets(low, high, kind, grid.owner[at], _guess(low, high, below, above, *slopes), below < 0)
+    ends = np.array([at, at + 1])
+    return _Brackets(kind, grid.owner[at], np.concatenate([grid.omega[None, ends], functions[:, kind, ends]]))
 
 
-def _guess(low, high, below, above, slope_low, slope_high) -> np.ndarray:
-    """Where the function is zero: omega as its cubic from values and slopes at both ends, else by the secant."""
-    width, part = high - low, below / (below - above)
-    rest = 1 - part
-    with np.errstate(divide="ignore", invalid="ignore"):
-        bend = rest * ((above - below) / slope_low - width) - part * ((above - below) / slope_high - width)
-    secant = low + width * part
-    cubic = secant + part * rest * bend
-    return np.where((cubic > low) & (cubic < high), cubic, secant)
-
-
-def _hidden(evaluate: Evaluate, grid: Grid, values: np.ndarray) -> _Brackets | None:
+def _hidden(evaluate: Evaluate, grid: Grid, functions: np.ndarray, changes: np.ndarray) -> _Brackets | None:
     """Left and right of the extrema of log|L| or arg(-L) between two nodes, where these are beyond zero."""
-    first = grid.samples[1]
-    values, slopes, step = values[:2], np.array([first.real, first.imag]), grid.omega[1:] - grid.omega[:-1]
-    trend, size, change = values * slopes, np.abs(values), np.abs(slopes)
-    reach = (size[:, :-1] < change[:, :-1] * step) | (size[:, 1:] < change[:, 1:] * step)
-    turns = (trend[:, :-1] < 0) & (trend[:, 1:] > 0) & (values[:, :-1] * values[:, 1:] > 0) & reach & grid.inside
-    kind, at = np.nonzero(turns)
-    if not kind.size:
+    values, slopes = functions[:, :S_PEAK]
+    trend = values * slopes
+    turns = (trend[:, :-1] < 0) & (trend[:, 1:] > 0) & ~changes[:S_PEAK]
+    if not turns.any():
         return None
-    low, high, owner, outer = grid.omega[at], grid.omega[at + 1], grid.owner[at], values[kind, at]
-    is_gain = kind == GAIN
+    kind, at = np.nonzero(turns & grid.inside)
+    ends = np.array([at, at + 1])
+    outer, omega = values[kind, ends], grid.omega[ends]
+    reach = np.abs(outer) < np.abs(slopes[kind, ends]) * (omega[1] - omega[0])
+    turns = (outer[0] * outer[1] > 0) & reach.any(0)
+    if not turns.any():
+        return None
+    kind, at, omega, outer = kind[turns], at[turns], omega[:, turns], outer[0, turns]
+    owner, is_gain = grid.owner[at], kind == GAIN
+
+    def parts(samples):
+        return np.where(is_gain, samples.real, samples.imag)
 
     def slope(omega):
-        _, first, second = evaluate(omega, owner)
-        return np.where(is_gain, first.real, first.imag), np.where(is_gain, second.real, second.imag)
+        samples = sampled(evaluate, omega, owner)
+        return parts(samples[1]), parts(samples[2]), samples
 
-    middle = _newton(slope, low, high, np.sqrt(low * high), slopes[kind, at] < 0)
-    log, *_ = evaluate(middle, owner)
-    inner = np.where(is_gain, log.real, from_negative(log))
-    i = np.flatnonzero(inner * outer < 0)
+    samples = grid.samples[:, [at, at + 1]]
+    middle, _, _, inner = _zeros(slope, np.array([omega, parts(samples[1]), parts(samples[2])]), SETTLED[kind])
+    i = np.flatnonzero(np.where(is_gain, inner[0].real, from_negative(inner[0])) * outer < 0)
     if not i.size:
         return None
-    low, middle, high, kind, owner, rising = low[i], middle[i], high[i], kind[i], owner[i], outer[i] < 0
-    ends = np.concatenate([low, middle]), np.concatenate([middle, high])
-    return _Brackets(
-        *ends, np.tile(kind, 2), np.tile(owner, 2), np.sqrt(ends[0] * ends[1]), np.concatenate([rising, ~rising])
-    )
+    kind = kind[i]
+    three = [(omega[0], samples[:, 0]), (middle, inner), (omega[1], samples[:, 1])]
+    points = np.array([[x[i], *_functions(*known[:, i])[:, kind, np.arange(i.size)]] for x, known in three])
+    ends = np.array([points[:2], points[1:]])  # (2 brackets, 2 ends, 3, n)
+    return _Brackets(np.tile(kind, 2), np.tile(owner[i], 2), np.concatenate(ends, axis=-1).swapaxes(0, 1))
 
 
-def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray]:
-    """omega of the zeros to full precision, (n,), and arg(-L), |L|, |S|, |T| there, (4, n)."""
-    kind, owner = brackets.kind, brackets.owner
-    if not kind.size:
-        return brackets.low, np.zeros((4, 0))
-    is_gain, is_crossing, is_S_peak = kind == GAIN, kind <= PHASE, kind == S_PEAK
+def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """omega of the zeros to full precision, (n,), arg(-L), |L|, |S|, |T| there, (4, n), False at those to leave out."""
+    kind, owner, ends = brackets
+    each = np.arange(kind.size)
 
     def function(omega):
         log, first, second = evaluate(omega, owner)
-        S, T = sensitivities(log)
-        weight, bend = np.where(is_S_peak, -T, S), S * T * (first * first)
-        value = np.where(is_gain, log.real, from_negative(log))
-        slope = np.where(is_gain, first.real, first.imag)
-        return (
-            np.where(is_crossing, value, (weight * first).real),
-            np.where(is_crossing, slope, (weight * second - bend).real),
-        )
+        value, slope = _functions(log, first, second, *sensitivities(log))[:, kind, each]
+        return value, slope, (log, first)
 
-    omega = _newton(function, brackets.low, brackets.high, brackets.start, brackets.rising)
-    log, *_ = evaluate(omega, owner)
+    omega, step, value, (log, first) = _zeros(function, ends, SETTLED[kind])
+    log = log + step * first
     S, T = sensitivities(log)
-    return omega, np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
+    what = np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
+    crossed = (np.abs(value) < CLOSE) & (np.abs(log.real) < FAR)  # no jump by pi at an undamped root
+    return omega + step, what, crossed | (kind != PHASE)
 
 
-def _newton(function: Callable, low, high, omega, rising) -> np.ndarray:
-    """Zeros inside the brackets: Newton from omega, or bisection where Newton would leave the bracket.
+def _zeros(function: Callable, ends: np.ndarray, settled: np.ndarray):
+    """Zeros of `function` in brackets, by the steps of the module docstring.
 
-    function: value and slope at omega.   rising: whether the value is negative at low.
+    function: value and slope at omega, and what else is known there.   ends: omega, value, slope at both, (3, 2, n).
+    settled: a Newton step that may be the last, in widths of the bracket.
+    Returns the last omega, the Newton step from there to the zero, the value at omega, and what else is known there.
     """
-    previous = np.zeros_like(omega)
-    for _ in range(STEPS):
-        value, slope = function(omega)
-        below = (value < 0) == rising
-        low, high = np.where(below, omega, low), np.where(below, high, omega)
-        newton = omega - value / np.where(slope == 0, np.nan, slope)
-        inside = (newton >= low) & (newton <= high)
-        following = np.where(value == 0, omega, np.where(inside, newton, np.sqrt(low * high)))
-        step = np.abs(following - omega)
-        ahead = step**3 <= SETTLED * omega * previous**2  # errors square: the next step would be step^3/previous^2
-        settled = (inside & (ahead | (step <= QUADRATIC * omega))) | (high - low <= ROUNDING * omega) | (value == 0)
-        omega, previous = following, np.where(inside, step, 0.0)
-        if settled.all():
-            break
-    return omega
+    low, high = ends[0]
+    small = np.maximum(settled * (high - low), ROUNDING * high)  # the grid resolves what bends the function
+    with np.errstate(divide="ignore", invalid="ignore"):
+        omega = _guess(*ends)
+        for number in range(STEPS):
+            value, slope, known = function(omega)
+            step = -value / slope
+            near = done = np.abs(step) <= small
+            if number > SURE:
+                done = near | (ends[0, 1] - ends[0, 0] <= ROUNDING * omega)
+            if done.all():
+                break
+            below = (value < 0) == (ends[1, 0] < 0)
+            ends = np.where([below, ~below], np.array([omega, value, slope])[:, None], ends)
+            halve = number > SURE and number % 2
+            omega = np.where(done, omega, np.sqrt(ends[0, 0] * ends[0, 1]) if halve else _guess(*ends))
+    return omega, np.where(near, step, 0.0), value, known
+
+
+def _guess(omega: np.ndarray, values: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+    """The cubic of the module docstring at zero; the middle of the bracket where that is outside."""
+    low, high = omega
+    width, rise = high - low, values[1] - values[0]
+    part = -values[0] / rise
+    rest = 1 - part
+    left, right = rise / slopes - width
+    cubic = low + part * (width + rest * (rest * left - part * right))
+    inside = (cubic > low) & (cubic < high)
+    return cubic if inside.all() else np.where(inside, cubic, np.sqrt(low * high))

@@ -9,6 +9,7 @@ multiplied out: an order-8 polynomial has lost its small time constants to round
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import numpy as np
 
@@ -36,15 +37,17 @@ class Factored:
     def __call__(self, s) -> np.ndarray:
         """F(s), complex, shape of s. On a pole the value is infinite, without a warning."""
         s = np.asarray(s, dtype=complex)
+        value = np.full(s.shape, complex(self.gain))
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            value = np.full(s.shape, complex(self.gain))
             # a numerator and a denominator factor in turn, so that no partial product overflows
-            for i in range(max(len(self.num), len(self.den))):
-                if i < len(self.num):
-                    value = value * _factor(self.num[i], s)
-                if i < len(self.den):
-                    value = value / _factor(self.den[i], s)
-            return value * np.exp(-self.theta * s) if self.theta else value
+            for above, below in zip_longest(self.num.tolist(), self.den.tolist()):
+                if above:
+                    value *= _factor(above, s)
+                if below:
+                    value /= _factor(below, s)
+            if self.theta:
+                value *= np.exp(-self.theta * s)
+        return value[()]
 
     @property
     def poles(self) -> np.ndarray:
@@ -68,9 +71,11 @@ def factors(*rows: tuple[float, float, float]) -> np.ndarray:
     return np.array(kept, dtype=float).reshape(-1, 3)
 
 
-def _factor(row: np.ndarray, s: np.ndarray) -> np.ndarray:
+def _factor(row: Sequence[float], s: np.ndarray) -> np.ndarray:
     a, b, c = row
-    return (a * s + b) * s + c if a else b * s + c
+    if a:
+        return (a * s + b) * s + c
+    return b * s + c if c else b * s
 
 
 def rows_of(array: np.ndarray) -> list[Row]:
@@ -98,7 +103,7 @@ def without_common(one: Sequence[Row], other: Sequence[Row]) -> tuple[list[Row],
 
 def degree(rows: Iterable[Row]) -> int:
     """Degree of the product."""
-    return sum(2 if a else 1 if b else 0 for a, b, _ in rows)
+    return sum([2 if a else 1 if b else 0 for a, b, _ in rows])
 
 
 def roots_of(rows: Iterable[Row]) -> list[complex]:
@@ -117,9 +122,15 @@ def product(gain: float, top: Sequence[float], bottom: Sequence[float]) -> float
     above, below = math.prod(top, start=gain), math.prod(bottom)
     if 1e-150 < abs(above) < 1e150 and 1e-150 < abs(below) < 1e150:
         return above / below
-    log = math.log(abs(gain)) + math.fsum(math.log(abs(x)) for x in top) - math.fsum(math.log(abs(x)) for x in bottom)
+    log = log_product(gain, top, bottom)
     negative = sum(x < 0 for x in (gain, *top, *bottom)) % 2
     return math.exp(min(max(log, -700.0), 700.0)) * (-1.0 if negative else 1.0)
+
+
+def log_product(gain: float, top: Sequence[float], bottom: Sequence[float]) -> float:
+    """log|gain prod(top)/prod(bottom)|."""
+    logs = [math.log(abs(x)) for x in (gain, *top)] + [-math.log(abs(x)) for x in bottom]
+    return math.fsum(logs)
 
 
 def quadratic_roots(a: float, b: float, c: float) -> tuple[complex, complex]:

@@ -1,11 +1,13 @@
 """log L(j omega) with its derivatives in closed form: what the search for margins and peaks lives on.
 
-For a product of factors q(s) = a s^2 + b s + c, with s = j omega,
+With zeros and poles r, L = c prod(s - r)/prod(s - r) e^{-theta s}; for each of them, with s = j omega,
 
-    log L = log|gain| + sum log|q| + j (sum atan2(Im q, Re q) - theta omega) ...     numerator +, denominator -
-    d/d omega log q = j q'/q,       d^2/d omega^2 log q = (q'/q)^2 - 2 a/q.
+    log(s - r) = log|omega + j r| + j atan2(omega - Im r, -Re r)
+    d/d omega log(s - r) = 1/(omega + j r),       d^2/d omega^2 log(s - r) = -1/(omega + j r)^2
 
-The argument is continuous in omega as it stands: Im q = b omega never changes sign. Nothing is unwrapped.
+and log L is their sum, zeros +, poles -, with log c - j theta omega. Where a root in the right half plane is passed its
+argument jumps by 2 pi, which is no change; otherwise it is continuous.
+
 A closed inner loop T = L/(1 + L) has log T = -log(1 + 1/L), and with S = 1 - T
 
     (log T)' = S (log L)',          (log T)'' = S (log L)'' - T S (log L)'^2.
@@ -22,12 +24,11 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from simc_core.factors import Factored, degree, product, roots_of, rows_of, without_common
+from simc_core.factors import Factored, log_product, product, roots_of, rows_of, without_common
 
 Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
 
-ONE = (0.0, 0.0, 1.0)
-LEAST = 1e-20  # 2 zeta of an undamped pair, less than rounding, so that no frequency is exactly its own
+LEAST = 1e-20  # zeta of an undamped pair, less than rounding, so that no frequency is exactly its own
 LARGEST = 600.0  # of log|L| where S and T are wanted
 
 
@@ -60,12 +61,15 @@ class FactoredResponse:
     def __init__(self, L: Factored):
         num, den, _ = without_common(rows_of(L.num), rows_of(L.den))
         self.theta = L.theta
-        self.roots = [root for root in roots_of(num + den) if root]
-        origin = sum(c == 0 for *_, c in num) - sum(c == 0 for *_, c in den)
+        self.zeros, self.poles = roots_of(num), roots_of(den)
+        self.roots = [root for root in self.zeros + self.poles if root]
+        origin = self.zeros.count(0) - self.poles.count(0)
         self.at_zero = Asymptote(product(L.gain, [c or b for _, b, c in num], [c or b for _, b, c in den]), origin)
-        leading = product(L.gain, [a or b or c for a, b, c in num], [a or b or c for a, b, c in den])
-        self.at_infinity = Asymptote(leading, degree(num) - degree(den))
-        self.gain, self.num, self.den = L.gain, num, den
+        top, bottom = [a or b or c for a, b, c in num], [a or b or c for a, b, c in den]
+        leading = product(L.gain, top, bottom)
+        self.at_infinity = Asymptote(leading, len(self.zeros) - len(self.poles))
+        size = math.log(abs(leading)) if 1e-300 < abs(leading) < 1e300 else log_product(L.gain, top, bottom)
+        self.log_leading = complex(size, -math.pi if leading < 0 else 0.0)
 
     @cached_property
     def _alone(self) -> "Together":
@@ -77,40 +81,33 @@ class FactoredResponse:
 
 
 class Together:
-    """Several FactoredResponses, evaluated together. Lists of different length are filled up with factors 1."""
+    """Several FactoredResponses with as many zeros and as many poles each, evaluated together."""
 
     def __init__(self, responses: Sequence[FactoredResponse]):
-        top = max(len(response.num) for response in responses)
-        bottom = max(len(response.den) for response in responses)
-        rows = [[*r.num, *[ONE] * (top - len(r.num)), *r.den, *[ONE] * (bottom - len(r.den))] for r in responses]
-        self.a, self.b, self.c = np.ascontiguousarray(np.array(rows).reshape(len(rows), -1, 3).T)  # (M, n) each
-        self.signs = np.array([1.0] * top + [-1.0] * bottom)
-        self.bends = self.a.any()
-        undamped = (self.a != 0) & (self.b == 0)
-        self.b[undamped] = LEAST * np.sqrt(np.abs(self.a * self.c))[undamped]
-        self.thetas = np.array([response.theta for response in responses])
-        self.sizes = np.array([math.log(abs(response.gain)) for response in responses])
-        self.turns = np.array([-math.pi if response.gain < 0 else 0.0 for response in responses])
+        self.signs = np.array([1] * len(responses[0].zeros) + [-1] * len(responses[0].poles), dtype=complex)
+        roots = [[root if root.real or not root else damped(root) for root in r.zeros + r.poles] for r in responses]
+        self.roots = np.array(roots, dtype=complex).T  # (M, n)
+        self.delays = np.array([1j * response.theta for response in responses])
+        self.constants = np.array([response.log_leading for response in responses])
 
     def log_derivatives(self, omega: np.ndarray, owner: np.ndarray | None = None) -> Logs:
         """As in Response, of the response owner[i] at omega[i]; with one response owner does not matter."""
-        a, b, c, theta, size, turn = self.a, self.b, self.c, self.thetas, self.sizes, self.turns
-        if theta.size > 1:
-            b, c, theta, size, turn = b[:, owner], c[:, owner], theta[owner], size[owner], turn[owner]
-            a = a[:, owner] if self.bends else a
-        q = np.empty((len(a), omega.size), dtype=complex)
-        q.real, q.imag = c - a * (omega * omega) if self.bends else c, b * omega
-        inverse = 1 / q
-        slope = (b + 2j * a * omega if self.bends else b) * inverse
-        bend = slope * slope
-        if self.bends:
-            bend -= 2 * a * inverse
-        log = np.empty(omega.size, dtype=complex)
-        log.real = self.signs @ np.log(np.abs(q)) + size
-        log.imag = self.signs @ np.angle(q) + (turn - theta * omega)
-        first = self.signs @ slope
-        first -= theta
-        return log, 1j * first, self.signs @ bend
+        roots, constant, delay = self.roots, self.constants, self.delays
+        if delay.size > 1:
+            roots, constant, delay = roots[:, owner], constant[owner], delay[owner]
+        from_root = omega + 1j * roots
+        parts = np.empty((3, *from_root.shape), dtype=complex)
+        parts[0].real = np.log(np.abs(from_root))
+        parts[0].imag = np.arctan2(from_root.real, -roots.real)
+        np.divide(1, from_root, out=parts[1])
+        np.multiply(parts[1], parts[1], out=parts[2])
+        log, first, second = self.signs @ parts
+        return log + (constant - delay * omega), first - delay, -second
+
+
+def damped(root: complex) -> complex:
+    """An undamped root, next to the imaginary axis on the left."""
+    return complex(-LEAST * abs(root), root.imag)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -186,7 +183,7 @@ class Series:
 
 def sensitivities(log: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """S and T from log L, also where L overflows."""
-    if np.max(log.real, initial=0.0) > LARGEST:
+    if np.maximum.reduce(log.real, initial=0.0) > LARGEST:
         log = np.minimum(log.real, LARGEST) + 1j * log.imag
     L = np.exp(log)
     S = 1 / (1 + L)

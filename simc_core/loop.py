@@ -66,7 +66,7 @@ def frequency_response(loop: Loop, omega) -> FrequencyResponse:
     """
     omega = at_frequencies(omega)
     s = 1j * omega
-    G, C = loop.plant.factored(s), loop.controller.factored(s)
+    G, C = factored_plant(loop.plant)(s), loop.controller.factored(s)
     L = G * C
     with np.errstate(divide="ignore", invalid="ignore"):
         S = 1 / (1 + L)

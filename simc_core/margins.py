@@ -119,8 +119,8 @@ def _gain_margins(limits: tuple[float, float], found: Crossings) -> tuple[float,
     crossed += [(-limit, omega) for limit, omega in zip(limits, (0.0, math.inf), strict=True) if -math.inf < limit < 0]
     above = [(1 / gain, omega) for gain, omega in crossed if gain < 1]
     GM, _ = min(above, default=(math.inf, math.nan))
-    omega_180 = min((omega for factor, omega in above if factor <= GM * (1 + ROUNDING)), default=math.nan)
-    return GM, max((1 / gain for gain, _ in crossed if gain >= 1), default=0.0), omega_180
+    omega_180 = min([omega for factor, omega in above if factor <= GM * (1 + ROUNDING)], default=math.nan)
+    return GM, max([1 / gain for gain, _ in crossed if gain >= 1], default=0.0), omega_180
 
 
 def _phase_margin(found: Crossings) -> tuple[float, float]:
@@ -132,7 +132,7 @@ def _delay_margin(response: Response, limits: tuple[float, float], found: Crossi
     if response.theta == 0 and abs(limits[1]) >= 1:
         return 0.0  # any dead time at all makes it a neutral loop with |L(inf)| >= 1
     crossed = zip(found.gain_phase.tolist(), found.gain_omega.tolist(), strict=True)
-    return min((phase % (2 * math.pi) / omega for phase, omega in crossed), default=math.inf)
+    return min([phase % (2 * math.pi) / omega for phase, omega in crossed], default=math.inf)
 
 
 def _peak(peaks: np.ndarray, omegas: np.ndarray, ends: list[float], envelope: float) -> tuple[float, float]:

@@ -1,8 +1,9 @@
 """The frequencies at which loop transfer functions are looked at for crossings and peaks.
 
 GRID_PER_DECADE nodes per decade, clusters at lightly damped roots, and steps of theta omega <= PHASE_STEP wherever
-|L| is large enough to matter. Where it is not: |S| <= 1/(1 - |L|) and |T| <= |L|/(1 - |L|), so that a peak seen on the
-grid excludes all frequencies with |L| below a level.
+|L| is large enough to matter: up to theta omega = USUAL for a start, which is enough for most loops. Where |L| is not:
+|S| <= 1/(1 - |L|) and |T| <= |L|/(1 - |L|), so that a peak seen on the grid excludes all frequencies with |L| below a
+level.
 
 A loop with |L(inf)| near 1 never gets below the level: the grid ends at MOST_NODES, and beyond it 1/(1 - |L|)
 itself is the peak, up to (theta omega)^-2.
@@ -17,10 +18,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core.logresponse import Logs, Response, sensitivities
-from simc_core.segments import geometric, ragged
+from simc_core.segments import geometric, ragged, side_by_side
 
 GRID_PER_DECADE = 24
 PHASE_STEP = 0.3
+USUAL = 14.0  # a gain crossing at theta omega = 0.5 or 1, and two turns
+EQUAL = PHASE_STEP * np.arange(round(GRID_PER_DECADE / math.log(10)), round(USUAL / PHASE_STEP))  # theta omega
 MOST_NODES = 12_000  # of one loop
 LIGHT = 0.35  # damping below which a root gets a cluster
 CLUSTER = 1.5 ** np.arange(-4, 40)  # offsets from a resonance, in units of its half width
@@ -51,22 +54,26 @@ def search_grid(responses: Sequence[Response], evaluate: Evaluate) -> Grid:
     omega, owner, ends = _base_grid(responses)
     samples = sampled(evaluate, omega, owner)
     thetas = np.array([response.theta for response in responses])
-    envelopes = [(0.0, 0.0)] * len(responses)
-    if thetas.any():
-        size, of = samples[0].real, owner[1:]
-        level, last = _level(thetas, omega, owner, ends, samples)
-        matters = (np.maximum(size[:-1], size[1:]) >= level[of]) | (omega[1:] <= last[of])
-        pieces = np.where(matters, np.ceil((omega[1:] - omega[:-1]) * thetas[of] / PHASE_STEP), 1)
-        pieces = np.maximum(pieces, 1)  # at least, and between two loops
+    envelopes, of = [(0.0, 0.0)] * len(responses), owner[1:]
+    turns = (omega[1:] - omega[:-1]) * thetas[of]
+    coarse = turns > 1.01 * PHASE_STEP
+    if coarse.any():
+        starts = [0, *(ends[:-1] + 1).tolist()]
+        loops = [(slice(i, j + 1), r.theta) for i, j, r in zip(starts, ends.tolist(), responses, strict=True)]
+        level, last = np.array([_level(theta, omega[at], samples[:, at]) for at, theta in loops]).T
+        size = samples[0].real
+        coarse &= (np.maximum(size[:-1], size[1:]) >= level[of]) | (omega[1:] <= last[of])
+    if coarse.any():
+        pieces = np.where(coarse, np.ceil(turns / PHASE_STEP), 1)
         total = pieces.cumsum()
         within = total <= MOST_NODES + np.concatenate([[0], total[ends[:-1]]])[of]
         if not within.all():
-            envelopes = _envelopes(len(responses), of, size[1:], matters & ~within)
+            envelopes = _envelopes(len(responses), of, size[1:], coarse & ~within)
             pieces[~within] = 1
         omega, owner, samples = _refined(evaluate, omega, owner, samples, pieces.astype(int))
+        turns = thetas[owner[1:]] * (omega[1:] - omega[:-1])
     inside = owner[1:] == owner[:-1]
-    resolved = inside & (thetas[owner[1:]] * (omega[1:] - omega[:-1]) <= 1.01 * PHASE_STEP)
-    return Grid(omega, owner, samples, resolved, inside, envelopes)
+    return Grid(omega, owner, samples, inside & (turns <= 1.01 * PHASE_STEP), inside, envelopes)
 
 
 def sampled(evaluate: Evaluate, omega: np.ndarray, owner: np.ndarray) -> np.ndarray:
@@ -75,19 +82,18 @@ def sampled(evaluate: Evaluate, omega: np.ndarray, owner: np.ndarray) -> np.ndar
     return np.array([*logs, *sensitivities(logs[0])])
 
 
-def _level(thetas, omega, owner, ends, samples) -> tuple[np.ndarray, np.ndarray]:
-    """For each loop: log|L| below which nothing matters, and the frequency up to which everything does.
+def _level(theta: float, omega: np.ndarray, samples: np.ndarray) -> tuple[float, float]:
+    """For one loop: log|L| below which nothing matters, and the frequency up to which everything does.
 
     Beyond the last gain crossing the phase falls by 2 pi within two turns of the dead time: there is a phase crossing.
     """
-    starts = np.concatenate([[0], ends[:-1] + 1])
-    size = samples[0].real
-    Ms, Mt = np.maximum.reduceat(np.abs(samples[3:]), starts, axis=1)
-    start = np.maximum.reduceat(omega * (size >= 0), starts)
-    last = start + 4 * math.pi / np.maximum(thetas, 1e-300)
-    after = starts + np.add.reduceat(omega < last[owner], starts, dtype=int)
-    level = np.minimum(np.log1p(-1 / np.maximum(Ms, 1 + 1e-6)), -np.log1p(1 / Mt))
-    return np.minimum(level, size[np.minimum(after, ends)]), last
+    if theta == 0:
+        return math.inf, 0.0
+    size, (Ms, Mt) = samples[0].real, np.abs(samples[3:]).max(1).tolist()
+    above = np.flatnonzero(size >= 0)
+    last = (omega[above[-1]] if above.size else 0.0) + 4 * math.pi / theta
+    beyond = size[min(omega.searchsorted(last), omega.size - 1)]
+    return min(math.log1p(-1 / max(Ms, 1 + 1e-6)), -math.log1p(1 / max(Mt, 1e-300)), beyond), last
 
 
 def _envelopes(n: int, owner: np.ndarray, size: np.ndarray, beyond: np.ndarray) -> list[tuple[float, float]]:
@@ -117,24 +123,24 @@ def _refined(evaluate: Evaluate, omega, owner, samples, pieces: np.ndarray):
 
 
 def _base_grid(responses: Sequence[Response]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Two decades beyond all corners at either end, clusters where the damping is light; omega, owner, last indices."""
-    ranges, clusters = [], []
-    for response in responses:
-        corners = [abs(root) for root in response.roots]
-        corners += [abs(gain) ** (-1 / power) for gain, power in (response.at_zero, response.at_infinity) if power]
-        if response.theta:
-            corners += [1 / response.theta, 4 * math.pi / response.theta]
-        ranges.append((1e-2 * min(corners, default=1.0), 1e2 * max(corners, default=1.0)))
-        clusters.append([root for root in response.roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)])
-    ranges = np.array(ranges)
-    omega, owner, ends = geometric(ranges[:, 0], ranges[:, 1], GRID_PER_DECADE)
-    if any(clusters):
-        near = [np.concatenate([_cluster(root) for root in roots] or [[]]) for roots in clusters]
-        counts = np.array([each.size for each in near])
-        omega, owner = np.concatenate([omega, *near]), np.concatenate([owner, ragged(counts)[0]])
-        order = np.lexsort((omega, owner))
-        omega, owner, ends = omega[order], owner[order], ends + counts.cumsum()
-    return omega, owner, ends
+    """Two decades beyond all corners at either end; omega, owner, last indices."""
+    return side_by_side([_own_grid(response) for response in responses])
+
+
+def _own_grid(response: Response) -> np.ndarray:
+    corners = [abs(root) for root in response.roots]
+    corners += [abs(gain) ** (-1 / power) for gain, power in (response.at_zero, response.at_infinity) if power]
+    if response.theta:
+        corners += [1 / response.theta, 4 * math.pi / response.theta]
+    first, last = 1e-2 * min(corners, default=1.0), 1e2 * max(corners, default=1.0)
+    clusters = [_cluster(root) for root in response.roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)]
+    if not response.theta:
+        omega = geometric(first, last, GRID_PER_DECADE)
+    else:  # equal steps from where those of the geometric grid are as long
+        begin, end = EQUAL[0] / response.theta, EQUAL[-1] / response.theta
+        below, above = geometric(first, begin, GRID_PER_DECADE), geometric(end, last, GRID_PER_DECADE)
+        omega = np.concatenate([below, EQUAL[1:-1] / response.theta, above])
+    return np.sort(np.concatenate([omega, *clusters])) if clusters else omega
 
 
 def _cluster(root: complex) -> np.ndarray:

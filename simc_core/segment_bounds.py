@@ -22,9 +22,9 @@ from simc_core.segments import Nodes
 from simc_core.term_table import table
 
 ROUNDING = 4 * np.finfo(float).eps  # of one factor, generously
-SHORTEST = 16 * np.finfo(float).eps  # relative length of a segment that no double lies inside
 SMALLEST = 1e-150  # |q| below it is taken for it: log 0 is kept out
 NOTHING = 1e-120  # |f| below it is 0
+TINY = np.finfo(float).tiny
 CLEARLY = 1 - 1e-12  # dominated by no less
 
 
@@ -43,18 +43,16 @@ class Segments:
 
 
 class _Values(NamedTuple):
-    """At N nodes. logs, slopes: log|q_m| and a bound of |q_m'|, (M, N).   gains, thetas: log|g_k|, theta_k, (K, N).
+    """At N nodes. parts: logarithms as in term_table, (V, N).   slopes: bounds of |q_m'|, (M, N).   thetas: (K, N).
 
-    phase: arg P_k, continuous in omega, (K, N).   angle, size, noise: arg f, |f|, rounding error of f, (N,).
+    phase: arg P_k, continuous in omega, (K, N).   f: its values, and noise: their rounding errors, (N,).
     """
 
-    logs: np.ndarray
+    parts: np.ndarray
     slopes: np.ndarray
-    gains: np.ndarray
     thetas: np.ndarray
     phase: np.ndarray
-    angle: np.ndarray
-    size: np.ndarray
+    f: np.ndarray
     noise: np.ndarray
 
 
@@ -64,61 +62,72 @@ class Family:
     def __init__(self, functions: Sequence[Characteristic]):
         rows = np.array([f.rows for f in functions], dtype=float).reshape(len(functions), -1, 3)
         self.a, self.b, self.c = np.ascontiguousarray(rows.T)  # (M, n) each
-        self.quadratic = self.a.any(axis=1)
-        self.table = table(functions[0].exponents, tuple((~self.quadratic).tolist()))
+        quadratic = [row[0] != 0 for row in functions[0].rows]
+        self.table = table(functions[0].exponents, tuple([not each for each in quadratic]))
         gains = np.array([f.gains for f in functions]).T  # (K, n), as those below
-        self.gains, self.turns = np.log(np.abs(gains)), np.where(gains < 0, math.pi, 0.0)
+        self.gains, self.turns = np.log(np.abs(gains)), math.pi * (gains < 0)
         self.thetas = np.array([f.thetas for f in functions]).T
-        self.bends = self.quadratic.any()
+        self.steepness = np.abs(self.b)
+        self.bends = any(quadratic)
         if self.bends:
+            self.quadratic = np.flatnonzero(quadratic)
             a, b, c = self.a[self.quadratic], self.b[self.quadratic], self.c[self.quadratic]
             self.lowest = (2 * a * c - b * b) / (2 * a * a)  # omega^2 of the smallest |q|
             smallest = np.abs(b) * np.sqrt(np.abs(c / a - (b / (2 * a)) ** 2))
             self.smallest = np.log(np.maximum(smallest, SMALLEST))
 
     def at(self, nodes: Nodes) -> Segments:
-        """The tests of the module docstring."""
-        v, e = self._values(nodes.omega, nodes.owner), self.table
-        left, right = v.logs[:, :-1], v.logs[:, 1:]
-        low, high = np.minimum(left, right), np.maximum(left, right)
+        """The tests of the module docstring. Between two loops there may be anything."""
+        v, t = self._values(nodes.omega, nodes.owner), self.table
+        (K, M), width = t.exponents.shape, nodes.omega[1:] - nodes.omega[:-1]
+        n = width.size
+        left, right = v.parts[:, :-1], v.parts[:, 1:]
+        ends = np.empty((2, *left.shape))
+        np.minimum(left, right, out=ends[0])
+        np.maximum(left, right, out=ends[1])
         if self.bends:
-            self._put_inner_minimum(low, nodes)
-        excess = self._slope(v, low, high) * (width := nodes.omega[1:] - nodes.omega[:-1])
-        excess /= np.maximum(v.size[1:] + v.size[:-1] - v.noise[1:] - v.noise[:-1], np.finfo(float).tiny)
-        zeros = v.size <= v.noise
-        zeros[1:] |= nodes.live & (excess >= 1) & (width <= SHORTEST * nodes.omega[1:])
-        change, certain = wrapped(v.angle[1:] - v.angle[:-1]), excess < 1
-        dominated = e.ratios.largest(v.logs, low, high, _on_segments(v.gains, width.size)) < CLEARLY
-        own = v.phase + wrapped(v.angle - v.phase)  # arg f, followed along P_k
-        for by, of in zip(dominated, own, strict=True):
-            change, certain = np.where(by, of[1:] - of[:-1], change), certain | by
-        return Segments(v.angle, zeros, change, certain, excess)
-
-    def _values(self, omega: np.ndarray, owner: np.ndarray) -> _Values:
-        e, (a, b, c) = self.table, (_of(x, owner) for x in (self.a, self.b, self.c))
-        gains, thetas = _of(self.gains, owner), _of(self.thetas, owner)
-        x = omega * omega
-        real, imag = c - a * x, b * omega
-        logs = 0.5 * np.log(np.maximum(real * real + imag * imag, SMALLEST**2))
-        delays = thetas * omega
-        phase = e.exponents @ np.arctan2(imag, real) - delays + _of(self.turns, owner)  # imag keeps its sign at 0
-        sizes = np.exp(e.exponents @ logs + gains)
-        re, im = (sizes * np.cos(phase)).sum(0), (sizes * np.sin(phase)).sum(0)
-        noise = sizes * (e.counts + 1 + e.sizes @ np.abs(logs) + np.abs(gains) + delays)
-        if self.bends:  # |q| without the cancellation in c - a omega^2, over |q|: rounding errors grow by that
-            full = (np.abs(c) + np.abs(a) * x) ** 2 + imag * imag
-            noise *= np.exp(e.above @ (0.5 * np.log(full + SMALLEST**2) - logs))
-        slopes = np.abs(b) + 2 * np.abs(a) * omega
-        return _Values(
-            logs, slopes, gains, thetas, phase, np.arctan2(im, re), np.hypot(re, im), ROUNDING * noise.sum(0) + NOTHING
+            self._put_inner_minimum(ends[0], nodes)
+        bounds = np.exp(t.bounds @ ends.reshape(-1, n))
+        ratios, sizes, inverses = bounds[: K * (K - 1)], bounds[K * (K - 1) : K * K], bounds[K * K :]
+        rates = inverses.reshape(2, M, n) * _on_segments(v.slopes, n)  # |q'/q|
+        slope = sizes * (t.rates @ rates.reshape(2 * M, n) + _on_segments(v.thetas, n))
+        size = np.abs(v.f)
+        room = size - v.noise
+        excess = slope.sum(0) * width / np.maximum(room[1:] + room[:-1], TINY)
+        dominated = ratios.reshape(K, K - 1, n).sum(1) < CLEARLY
+        angle = np.arctan2(v.f.imag, v.f.real)
+        turn = angle[1:] - angle[:-1]
+        followed = (dominated * (v.phase[:, 1:] - v.phase[:, :-1])).sum(0)  # half a turn from it at most
+        return Segments(
+            angle,
+            room <= 0,
+            turn - math.tau * np.rint((turn - followed) / math.tau),
+            (excess < 1) | dominated.any(0),
+            excess,
         )
 
-    def _slope(self, v: _Values, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-        """K, from bounds of |P_k| and of |q'/q|."""
-        e, n = self.table, low.shape[1]
-        at_end = _on_segments(v.slopes, n)
-        rates = e.above @ (at_end * np.exp(-high)) + e.below @ (at_end * np.exp(-low)) + _on_segments(v.thetas, n)
-        return (np.exp(e.above @ high - e.below @ low + _on_segments(v.gains, n)) * rates).sum(0)
+    def _values(self, omega: np.ndarray, owner: np.ndarray) -> _Values:
+        t, b, real, thetas = self.table, _of(self.b, owner), _of(self.c, owner), _of(self.thetas, owner)
+        (K, M), slopes = t.exponents.shape, _of(self.steepness, owner)
+        imag = b * omega
+        if self.bends:
+            a = _of(self.a, owner)
+            bent = a * (omega * omega)
+            full = (np.abs(real) + np.abs(bent)) ** 2 + imag * imag
+            real, slopes = real - bent, slopes + 2 * np.abs(a) * omega
+        parts = np.empty((t.terms.shape[1], omega.size))
+        parts[:M] = 0.5 * np.log(np.maximum(real * real + imag * imag, SMALLEST**2))
+        parts[M : M + K] = _of(self.gains, owner)
+        parts[M + K :] = t.pairs @ parts[:M]
+        delays = thetas * omega
+        terms = np.empty((K, omega.size), dtype=complex)  # log P_k
+        terms.real = t.terms @ parts
+        terms.imag = phase = t.exponents @ np.arctan2(imag, real) + (_of(self.turns, owner) - delays)
+        terms = np.exp(terms)  # imag keeps its sign at 0
+        noise = np.abs(terms) * (t.sizes @ np.abs(parts) + (delays + t.counts))
+        if self.bends:  # |q| without the cancellation in c - a omega^2, over |q|: rounding errors grow by that
+            noise *= np.exp(t.above @ (0.5 * np.log(full + SMALLEST**2) - parts[:M]))
+        return _Values(parts, slopes, thetas, phase, terms.sum(0), ROUNDING * noise.sum(0) + NOTHING)
 
     def _put_inner_minimum(self, low: np.ndarray, nodes: Nodes) -> None:
         """low of the quadratic factors, smaller where |q| has its minimum inside the segment."""
@@ -126,11 +135,6 @@ class Family:
         lowest, smallest = _of(self.lowest, owner), _of(self.smallest, owner)
         inside = (lowest > x[:-1]) & (lowest < x[1:])
         low[self.quadratic] = np.where(inside, smallest, low[self.quadratic])
-
-
-def wrapped(angle: np.ndarray) -> np.ndarray:
-    """angle in [-pi, pi]."""
-    return angle - 2 * math.pi * np.rint(angle / (2 * math.pi))
 
 
 def _of(values: np.ndarray, owner: np.ndarray) -> np.ndarray:

@@ -4,6 +4,7 @@ Neighbours bound a segment, unless they belong to different loops or to segments
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,22 +22,21 @@ class Nodes:
     live: np.ndarray
 
 
-def geometric(
-    first: np.ndarray, last: np.ndarray, per_decade: float, before: int = 0
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """omega and owner of grids from first[i] to last[i] for every loop i, and the index at which each of them ends.
+def geometric(first: float, last: float, per_decade: float) -> np.ndarray:
+    """From first to last, both of them exactly."""
+    span = math.log(last) - math.log(first)
+    intervals = int(per_decade / math.log(10.0) * span) + 1
+    omega = first * np.exp(np.arange(intervals + 1) * (span / intervals))
+    omega[-1] = last
+    return omega
 
-    before: more nodes ahead of first[i].
-    """
-    start = np.log(first)
-    span = np.log(last) - start
-    counts = (span * (per_decade / math.log(10.0))).astype(int) + 2
-    step = span / (counts - 1)
-    owner, place = ragged(counts + before)
-    omega = np.exp(start[owner] + step[owner] * (place - before))
-    ends = (counts + before).cumsum() - 1
-    omega[ends] = last
-    return omega, owner, ends
+
+def side_by_side(grids: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Frequencies of all loops in one row, the number of the loop beside each, and the index at which each ends."""
+    if len(grids) == 1:
+        return grids[0], np.zeros(grids[0].size, dtype=int), np.array([grids[0].size - 1])
+    sizes = np.array([grid.size for grid in grids])
+    return np.concatenate(grids), np.arange(sizes.size).repeat(sizes), sizes.cumsum() - 1
 
 
 def ragged(counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -19,12 +19,13 @@ import numpy as np
 from simc_core.characteristic import Characteristic
 from simc_core.errors import InvalidParameter
 from simc_core.factors import roots_of
-from simc_core.segment_bounds import Family, wrapped
-from simc_core.segments import Nodes, geometric, split
+from simc_core.segment_bounds import Family
+from simc_core.segments import Nodes, geometric, side_by_side, split
 
 MOST_SEGMENTS = 60_000  # of one loop, about 0.1 s; a usual one needs 30 to 100
-TOGETHER = 64  # loops; more do not fit the cache
-GRID_PER_DECADE = 16
+TOGETHER = 40  # loops; more do not fit the cache
+GRID_PER_DECADE = 24
+SHORTEST = 16 * np.finfo(float).eps  # relative length of a segment that no double lies inside
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +49,7 @@ def windings(functions: Sequence[Characteristic]) -> list[Winding]:
     """The same of many, those with equal tables of exponents together. One that is refused refuses all."""
     alike: dict[tuple, list[int]] = {}
     for i, f in enumerate(functions):
-        alike.setdefault((f.exponents, tuple(row[0] != 0 for row in f.rows)), []).append(i)
+        alike.setdefault((f.exponents, tuple([row[0] != 0 for row in f.rows])), []).append(i)
     found: dict[int, Winding] = {}
     for members in alike.values():
         for start in range(0, len(members), TOGETHER):
@@ -60,42 +61,47 @@ def windings(functions: Sequence[Characteristic]) -> list[Winding]:
 def _together(functions: Sequence[Characteristic]) -> list[Winding]:
     """Those with the same table of exponents."""
     n, family = len(functions), Family(functions)
-    ranges = np.array([_range(f) for f in functions])
-    grid, ends = _first_grid(ranges[:, 0], ranges[:, 1])
-    ahead = np.array([0.0 if f.limit > 0 else math.pi for f in functions])
-    turned, work, touches = np.zeros(n), np.zeros(n), np.full(n, np.nan)
+    grid, ends = _first_grid([_range(f) for f in functions])
+    turned, work, touches = np.zeros(n), np.zeros(n), np.array([math.nan] * n)
     waiting = [grid]
-    while waiting:
-        nodes = waiting.pop()
-        owner = nodes.owner[1:]
-        work += np.bincount(owner, nodes.live, n)
-        _refuse(functions, work)
-        with np.errstate(over="ignore", invalid="ignore"):  # between two loops
+    with np.errstate(over="ignore", invalid="ignore"):  # between two loops
+        while waiting:
+            nodes = waiting.pop()
+            owner = nodes.owner[1:]
+            work += np.bincount(owner, nodes.live, n)
+            if work.max() > MOST_SEGMENTS:
+                _refuse(functions, work)
             found = family.at(nodes)
-        if nodes is grid:  # from the last frequency to infinity
-            turned += wrapped(ahead - found.angle[ends])
-        counts = nodes.live & found.certain
-        turned += np.bincount(owner, found.change * counts, n)
-        going = nodes.live ^ counts
-        if found.zeros.any():
-            _note(nodes, found.zeros, touches)
-            going &= np.isnan(touches)[owner]
-        if going.any():
-            waiting += split(nodes, going, found.excess)
-    zeros = np.rint(turned / -math.pi).astype(int).tolist()
-    return [
-        Winding(count, None, done) if math.isnan(touch) else Winding(None, touch, done)
-        for count, touch, done in zip(zeros, touches.tolist(), work.astype(int).tolist(), strict=True)
-    ]
+            if nodes is grid:
+                last = found.angle[ends].tolist()
+            counts = nodes.live & found.certain
+            turned += np.bincount(owner, found.change * counts, n)
+            going = nodes.live ^ counts
+            if nodes is not grid:
+                found.zeros[1:] |= going & (nodes.omega[1:] - nodes.omega[:-1] <= SHORTEST * nodes.omega[1:])
+            if found.zeros.any():
+                _note(nodes, found.zeros, touches)
+                going &= np.isnan(touches)[owner]
+            if going.any():
+                waiting += split(nodes, going, found.excess)
+    results = zip(functions, turned.tolist(), last, touches.tolist(), work.tolist(), strict=True)
+    return [_verdict(*each) for each in results]
+
+
+def _verdict(f: Characteristic, turned: float, last: float, touch: float, work: float) -> Winding:
+    """turned: change of arg f up to the last frequency, where it is `last`; its limit is 0 or pi."""
+    if not math.isnan(touch):
+        return Winding(None, touch, int(work))
+    ahead = 0.0 if f.limit > 0 else math.pi
+    return Winding(round((turned + math.remainder(ahead - last, math.tau)) / -math.pi), None, int(work))
 
 
 def _refuse(functions: Sequence[Characteristic], work: np.ndarray) -> None:
     most = int(work.argmax())
-    if work[most] > MOST_SEGMENTS:
-        raise InvalidParameter(
-            f"the stability certificate must need <= {MOST_SEGMENTS} segments, got {work[most]:.0f}: the loop is too "
-            f"close to |L(inf)| = 1 (here {functions[most].neutral:g}) or its time constants are too far apart"
-        )
+    raise InvalidParameter(
+        f"the stability certificate must need <= {MOST_SEGMENTS} segments, got {work[most]:.0f}: the loop is too "
+        f"close to |L(inf)| = 1 (here {functions[most].neutral:g}) or its time constants are too far apart"
+    )
 
 
 def _note(nodes: Nodes, zeros: np.ndarray, touches: np.ndarray) -> None:
@@ -105,10 +111,9 @@ def _note(nodes: Nodes, zeros: np.ndarray, touches: np.ndarray) -> None:
             touches[nodes.owner[i]] = nodes.omega[i]
 
 
-def _first_grid(first: np.ndarray, last: np.ndarray) -> tuple[Nodes, np.ndarray]:
+def _first_grid(ranges: Sequence[tuple[float, float]]) -> tuple[Nodes, np.ndarray]:
     """0 and a geometric grid for every loop; and the index of its last frequency."""
-    omega, owner, ends = geometric(first, last, GRID_PER_DECADE, before=1)
-    omega[0] = omega[ends[:-1] + 1] = 0.0
+    omega, owner, ends = side_by_side([np.append(0.0, geometric(*each, GRID_PER_DECADE)) for each in ranges])
     return Nodes(omega, owner, omega[1:] > 0), ends
 
 

@@ -11,6 +11,7 @@ from simc_core import (
     IdealPid,
     IntegratingDelay,
     Loop,
+    ParallelPid,
     Plant,
     SeriesPid,
     crossings,
@@ -103,6 +104,14 @@ def test_limits_that_do_not_exist():
     m = margins(Loop(Plant(1.0, 0.0, (1.0,)), SeriesPid(1.0, math.inf)))
     assert (m.GM, m.GM_lower, m.PM_deg, m.delay_margin) == (math.inf, 0, math.inf, math.inf)
     assert (m.Ms, m.omega_Ms, m.Mt, m.omega_Mt) == (1.0, math.inf, 0.5, 0.0)
+
+
+@pytest.mark.parametrize("tau", [0.10156531834357964, 1.0, 1.133159816002351, 7.3])
+def test_the_jump_at_an_undamped_pair_is_no_phase_crossing(tau):
+    """L = s/((T s + 1)(tau^2 s^2 + 1)): its phase jumps from 90 to -90 degrees, less atan(T omega), and stays there."""
+    m = margins(Loop(Plant(1.0, lag_pairs=((tau, 0.0),)), ParallelPid(0.0, 0.0, 1.0, 0.1 * tau)))
+    assert (m.GM, m.GM_lower) == (math.inf, 0.0)
+    assert math.isnan(m.omega_180)
 
 
 def test_any_dead_time_is_too_much_for_a_loop_that_does_not_roll_off():
