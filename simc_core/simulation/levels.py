@@ -45,6 +45,7 @@ class Levels:
         size = np.abs(chain.modes)
         self.unit = chain.theta or float(1 / np.max(size) if size.any() else 1.0)
         self._made: dict[int, Elements] = {}
+        self._known: dict[tuple[int, int], np.ndarray] = {}
         parts = (mesh(chain.modes, chain.theta) / chain.theta).tolist() if chain.theta else []
         self.shape = tuple(part / 2**finer for part in parts for _ in range(2**finer))
         self.mesh = tuple(round(math.log2(part)) for part in self.shape)
@@ -71,9 +72,13 @@ class Levels:
 
         Level 0 is the whole mesh, on either side.
         """
-        if before:
-            return _from_element(before, level, () if level else self.shape)
-        return _from_mesh(self.shape, level)
+        found = self._known.get((before, level))
+        if found is None:
+            made = (
+                _from_element(before, level, () if level else self.shape) if before else _from_mesh(self.shape, level)
+            )
+            found = self._known[before, level] = made
+        return found
 
 
 @lru_cache(maxsize=64)

@@ -93,13 +93,15 @@ class _Walk:
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.theta, self.t_end, self.n = plant.theta, t_end, n
         self.to_rest = t_end is None
-        self.final = np.zeros((n, 2, 1, 2))  # y and z
         if self.to_rest:
-            self.final[:, :, 0] = [final_values(plant, form) for form in forms]
-            self.final[:, 1, 0, 1] += 1.0
+            self.final = np.array([final_values(plant, form) for form in forms]).repeat(
+                P, axis=1
+            )  # y and z at the nodes
+            self.final[:, P:, 1] += 1.0
         self.mesh = [self.theta * part for part in self.levels.shape]
         self.S = self.law.start()
-        self.z = np.zeros((n, P * max(len(self.levels.mesh), 1), 2))
+        self.places = [slice(e * P, (e + 1) * P) for e in range(max(len(self.mesh), 1))]  # of the elements in z
+        self.z = np.zeros((n, self.places[-1].stop, 2))
         self.largest = np.full((n, 2, 2), 1e-300)
         self.paces = [Pace() for _ in range(n)]
         self.active = dict.fromkeys(range(n))
@@ -131,7 +133,7 @@ class _Walk:
         return chain.relative_degree + (chain.tau_F > 0) + (not Kp.any())
 
     def elements(self) -> None:
-        """On at every tuning's out pace."""
+        """On at every tuning's own pace."""
         work, most = 0, MOST_TO_REST if self.to_rest else MOST_TO_END
         while self.active and work < most:
             groups: dict[tuple[bool, int], list[int]] = {}
@@ -139,8 +141,7 @@ class _Walk:
                 pace = self.paces[i]
                 groups.setdefault((pace.before == 0, pace.level), []).append(i)
             self._groups(groups)
-            on_mesh = self.theta > 0 and any(level == 0 for _, level in groups)
-            work += len(self.levels.mesh) if on_mesh else 1
+            work += max([len(self._parts(level)) for _, level in groups])
         if self.active and not self.to_rest:
             raise InvalidParameter(
                 f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
@@ -160,7 +161,7 @@ class _Walk:
         """Some intervals of theta, each on its mesh: w is z of the interval before."""
         S, step, laws = self.S[at], [], [self.law[level].G[at] for level in self.levels.mesh]
         known = self._history(which, 0) @ self.z[at, -P:] if self.paces[which[0]].before else self.z[at]
-        ahead = [known[:, e * P : (e + 1) * P] for e in range(len(laws))]
+        ahead = [known[:, places] for places in self.places]
         for i in range(count * len(laws)):
             out = laws[i % len(laws)] @ np.concatenate([ahead[i], S], axis=1)
             S = out[:, END:]
@@ -185,14 +186,15 @@ class _Walk:
 
     def _decide(self, which: list[int], at, level: int, step: list[np.ndarray]) -> None:
         """Keep what is good enough, shorten what is not; choose the level of the next element."""
-        on_mesh, last = level == 0 and self.theta > 0, step[-len(self._parts(level)) :]
+        on_mesh, parts = level == 0 and self.theta > 0, self._parts(level)
+        last = step[-len(parts) :]
         found = _largest([np.maximum.reduceat(np.abs(out[:, :END]), PARTS, axis=1) for out in last])
         found = found.reshape(-1, 3, 2, 2)
-        largest = np.maximum(self.largest[at], found[:, 0])
+        largest = np.maximum(found[:, 0], self.largest[at])
         _, middles, tails = np.maximum.reduce(found / largest[:, None], axis=(2, 3)).T.tolist()
         if on_mesh and max(tails) > self.coarse:
             raise _TooCoarse
-        good = [j for j, tail in enumerate(tails) if tail <= TAIL or on_mesh]
+        good = range(len(which)) if on_mesh else [j for j, tail in enumerate(tails) if tail <= TAIL]
         if len(good) < len(which):
             for j in set(range(len(which))) - set(good):
                 self.paces[which[j]].shorten()
@@ -200,10 +202,10 @@ class _Walk:
                 return
             which, middles, tails = ([each[j] for j in good] for each in (which, middles, tails))
             step, largest, at = [out[good] for out in step], largest[good], np.array(which)
-        self._keep(which, at, level, step)
+        self._keep(which, at, level, step, parts)
         self.largest[at] = largest
         judged, unit = self.levels.mesh[-1] if on_mesh else level, self.levels.unit
-        sizes = self._sizes(at, step[-len(last) :], largest)
+        sizes = self._sizes(at, step[-len(parts) :], largest)
         for i, middle, tail, size in zip(which, middles, tails, sizes, strict=True):
             pace = self.paces[i]
             left = None if self.to_rest else (self.t_end - pace.t) / unit
@@ -217,17 +219,16 @@ class _Walk:
         if not self.to_rest:
             return largest.max(axis=(1, 2)).tolist()
         final = self.final[at]
-        away = [np.maximum.reduce(np.abs(out[:, : 2 * P].reshape(-1, 2, P, 2) - final), axis=2) for out in last]
-        return np.maximum.reduce(_largest(away) / largest, axis=(1, 2)).tolist()
+        away = _largest([np.maximum.reduceat(np.abs(out[:, : 2 * P] - final), (0, P), axis=1) for out in last])
+        return np.maximum.reduce(away / largest, axis=(1, 2)).tolist()
 
-    def _keep(self, which: list[int], at, level: int, step: list[np.ndarray]) -> None:
+    def _keep(self, which: list[int], at, level: int, step: list[np.ndarray], parts: list[float]) -> None:
         """Enter a stretch, and go on from its end."""
-        paces, parts = [self.paces[i] for i in which], self._parts(level)
-        intervals = len(step) // len(parts)
+        paces, intervals = [self.paces[i] for i in which], len(step) // len(parts)
         self.stretches.append(Stretch(which, [pace.t for pace in paces], parts * intervals, step))
         self.S[at] = step[-1][:, END:]
-        z = np.concatenate([out[:, Z] for out in step[-len(parts) :]], axis=1)
-        self.z[at, -z.shape[1] :] = z
+        for places, out in zip(self.places[-len(parts) :], step[-len(parts) :], strict=True):
+            self.z[at, places] = out[:, Z]
         for pace in paces:
             pace.t += intervals * self.levels.length(level)
             pace.before = level
