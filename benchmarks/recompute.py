@@ -35,9 +35,11 @@ def peer(loop: Loop, order: int, t: np.ndarray, omega: np.ndarray) -> np.ndarray
         e = (1.0 - source) - y
         np.trapezoid(np.abs(e), t), np.trapezoid(e**2, t), np.trapezoid(t * np.abs(e), t), np.abs(np.diff(u)).sum()
     control.step_info(responses[0, 0], T=t)
+    control.step_info(responses[0, 1], T=t, yfinal=0.0)
     L = to_tf(loop.plant, order) * to_tf(loop.controller)
     control.frequency_response(system, omega)
-    control.frequency_response(L, omega)
+    S = 1 / (1 + control.frequency_response(L, omega).frdata[0, 0])
+    np.max(np.abs(S)), np.max(np.abs(1 - S))  # Ms, Mt
     control.stability_margins(L)
     system.poles()
     return responses[0, 0]
