@@ -78,8 +78,8 @@ def course(stretches: Sequence[Stretch], at_rest: Sequence[bool]) -> Course:
             owner += which
             begin += [each + start for each in begins]
             length += [h] * len(which)
-            nodal.append(own[:, : 2 * P])
-    values = np.concatenate(nodal).reshape(-1, 2, P, 2)
+            nodal.append(own)
+    values = np.concatenate(nodal)[:, : 2 * P].reshape(-1, 2, P, 2)
     owner, begin, length = np.array(owner), np.array(begin), np.array(length)
     if n > 1:
         order = np.argsort(owner, kind="stable")

@@ -23,7 +23,7 @@ from simc_core.simulation.pace import MIDDLE
 
 SPECTRUM = TO_CHEBYSHEV[[MIDDLE - 1, MIDDLE, P - 2, P - 1]]  # of nodal values: the coefficients that pace.py goes by
 Y, Z, END = slice(P), slice(P, 2 * P), 2 * P + 8  # rows of G; in between two middle ones of y and z, two last ones
-PARTS = (0, P, 2 * P, 2 * P + 2, 2 * P + 4, 2 * P + 6)
+PARTS = np.array([0, P, 2 * P, 2 * P + 2, 2 * P + 4, 2 * P + 6])
 
 
 class OnLevel(NamedTuple):
@@ -72,12 +72,13 @@ class Law:
         begin = END - P  # from the column to the row of each
         nodes, Ki = elements.nodes[:, None], self.Ki
         G = np.zeros((L, n, END + self.size, P + self.size))
-        G[:, :, Y, :own] = elements.signals[:, None, 0]
-        G[:, :, Z, :own] = (-self.gains @ elements.signals[:, 1:].reshape(L, SIGNALS - 1, -1)).reshape(L, n, P, own)
+        y, fed_back = elements.signals[0], self.gains @ elements.signals[1:].reshape(SIGNALS - 1, -1)
+        G[:, :, Y, :own] = y[:, None]
+        G[:, :, Z, :own] = -fed_back.reshape(n, L, P, own).swapaxes(0, 1)
         G[:, :, Z, xi] = G[:, :, Z, d] = 1.0
         G[:, :, Z, r] = self.ahead + Ki * nodes
         G[:, :, END : begin + own, :own] = elements.ends[:, None]
-        G[:, :, begin + xi, :own] = -Ki * elements.signals[:, None, 3, -1]
+        G[:, :, begin + xi, :own] = -Ki * elements.signals[3][:, None, -1]
         G[:, :, begin + xi, r] = Ki[:, 0] * elements.length[:, None]
         G[:, :, begin + xi, xi] = G[:, :, begin + r, r] = G[:, :, begin + d, d] = 1.0
         if self.tau_F:

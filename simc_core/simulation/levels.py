@@ -22,7 +22,7 @@ EYE = np.eye(P)
 class Elements(NamedTuple):
     """L levels made together. length (L,), nodes (L, P): from the start of the element.
 
-    B: (L, P, P), its own z at t - theta.   signals: (L, 4, P, P + n), w and the states at the start -> y, p, p', int p
+    B: (L, P, P), its own z at t - theta.   signals: (4, L, P, P + n), w and the states at the start -> y, p, p', int p
     at the nodes.   ends: (L, n, P + n), -> states at the end.
     """
 

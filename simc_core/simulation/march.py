@@ -88,7 +88,8 @@ class _Walk:
 
     def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int):
         n = len(forms)
-        self.levels = levels(plant, forms[0].tau_F, any(form.Kd for form in forms), finer)
+        self.proportional, self.derivative = any(form.Kp for form in forms), any(form.Kd for form in forms)
+        self.levels = levels(plant, forms[0].tau_F, self.derivative, finer)
         self.law = Law(forms, self.levels)
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.theta, self.t_end, self.n = plant.theta, t_end, n
@@ -127,10 +128,10 @@ class _Walk:
 
     def _degree(self) -> int:
         """Least relative degree of the loops."""
-        chain, (Kp, Kd, _) = self.levels.chain, self.law.gains.T
-        if Kd.any():
+        chain = self.levels.chain
+        if self.derivative:
             return chain.relative_degree - (not chain.tau_F)
-        return chain.relative_degree + (chain.tau_F > 0) + (not Kp.any())
+        return chain.relative_degree + (chain.tau_F > 0) + (not self.proportional)
 
     def elements(self) -> None:
         """On at every tuning's own pace."""

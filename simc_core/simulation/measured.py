@@ -51,7 +51,7 @@ class Measured:
         return (b2 if a else b1) == 0
 
     def elements(self, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Of single elements: signals (lengths, 4, P, P + n) and states at the end (lengths, n, P + n)."""
+        """Of single elements: signals (4, lengths, P, P + n) and states at the end (lengths, n, P + n)."""
         n, count = self.n, len(lengths)
         K = lengths[:, None, None] * COLLOCATION
         v, ends = np.zeros((count, P, P + n)), np.zeros((count, n, P + n))
@@ -59,11 +59,11 @@ class Measured:
         slope, used = np.zeros_like(v), 0
         for num, den in self.sections:
             v, slope, used = _section(num, den, K, v, ends, used)
-        outputs = np.empty((count, SIGNALS, P, P + n))
-        outputs[:, 0] = v
+        outputs = np.empty((SIGNALS, count, P, P + n))
+        outputs[0] = v
         if self.tau_F:
             v, slope, used = _section((0.0, 0.0, 1.0), (0.0, self.tau_F, 1.0), K, v, ends, used)
-        outputs[:, 1], outputs[:, 2], outputs[:, 3] = v, slope, K @ v
+        outputs[1], outputs[2], outputs[3] = v, slope, K @ v
         return outputs, ends
 
 

@@ -14,7 +14,7 @@ from simc_core.simulation.elements import P
 
 TAIL = 1e-11
 ROOM, SMALL, AIM = 1e-3, 0.03, 0.1  # of TAIL
-MIDDLE = 9  # degree
+MIDDLE, OF_MIDDLE = 9, math.factorial(9)  # degree
 REACH = (AIM * TAIL * math.factorial(P - 1)) ** (1 / (P - 1))  # rate times length for which c_{P-1} is that
 PATIENCE, MOST_PATIENCE = 4, 16
 LOWEST, HIGHEST = -48, 60  # levels
@@ -72,5 +72,5 @@ class Pace:
 
 def _doublings(middle: float) -> int:
     """How often an element with this middle coefficient may be doubled."""
-    rate = (max(middle, LEAST) * math.factorial(MIDDLE)) ** (1 / MIDDLE)
+    rate = (max(middle, LEAST) * OF_MIDDLE) ** (1 / MIDDLE)
     return math.floor(math.log2(REACH / rate))
