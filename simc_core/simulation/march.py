@@ -142,7 +142,7 @@ class _Walk:
                 pace = self.paces[i]
                 groups.setdefault((pace.before == 0, pace.level), []).append(i)
             self._groups(groups)
-            work += max([len(self._parts(level)) for _, level in groups])
+            work += 1 if not self.theta or all(level for _, level in groups) else len(self.mesh)
         if self.active and not self.to_rest:
             raise InvalidParameter(
                 f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
