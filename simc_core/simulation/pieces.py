@@ -11,7 +11,7 @@ from simc_core.simulation.elements import P
 
 TINY = 1e-300  # to the left of 0
 NEAR = 1e-12  # relative to t: an instant this close below an edge is the edge, where the right-hand limit holds
-FEW = 60  # instants; for more, products take less time than cosines
+FEW = 50  # instants; for more, products take less time than cosines
 DEGREES = np.arange(P + 2.0)[:, None]
 ENDS = chebyshev.chebvander(np.array([-1.0, 1.0]), P - 1)  # coefficients -> values at the left and the right end
 
@@ -61,15 +61,16 @@ class Pieces:
 def chebyshev_basis(x: np.ndarray, p: int = P) -> np.ndarray:
     """T_0 .. T_{p-1} at x (n,) in [-1, 1], shape (p, n); p <= P + 2.
 
-    T_k = cos(k arccos x);   T_{m+k} = 2 T_m T_k - T_{m-k} for k = 1 .. m at once, m = 1, 2, 4 ...
+    T_k = cos(k arccos x);   with D = 2 T, D_{m+k} = D_m D_k - D_{m-k} for k = 1 .. m at once, m = 1, 2, 4 ...
     """
     if len(x) <= FEW:
         return np.cos(DEGREES[:p] * np.arccos(x))
-    T = np.empty((p, len(x)))
-    T[0], T[1], m = 1.0, x, 1
+    D, m = np.empty((p, len(x))), 1
+    D[0], D[1] = 2.0, 2 * x
     while m < p - 1:
         k = min(m, p - 1 - m)
-        following = np.multiply(T[1 : k + 1], 2 * T[m], out=T[m + 1 : m + k + 1])
-        following -= T[m - k : m][::-1]
+        following = np.multiply(D[1 : k + 1], D[m], out=D[m + 1 : m + k + 1])
+        following -= D[m - k : m][::-1]
         m *= 2
-    return T
+    D *= 0.5
+    return D
