@@ -78,7 +78,7 @@ def both_steps(course: Course) -> Steps:
         np.concatenate([course.length, course.length]),
         course.coefficients.reshape(2, 2 * m, -1),
         np.concatenate([course.first[:-1], course.first[:-1] + m]),
-        np.repeat([1.0, 0.0], n),
+        np.array([1.0, 0.0]).repeat(n),
     )
 
 

@@ -11,7 +11,7 @@ from simc_core.simulation.elements import P
 
 TINY = 1e-300  # to the left of 0
 NEAR = 1e-12  # relative to t: an instant this close below an edge is the edge, where the right-hand limit holds
-FEW = 40  # instants; for more, powers take less time than cosines
+FEW = 50  # instants; for more, products take less time than cosines
 DEGREES = np.arange(P + 2.0)[:, None]
 ENDS = chebyshev.chebvander(np.array([-1.0, 1.0]), P - 1)  # coefficients -> values at the left and the right end
 
@@ -33,7 +33,7 @@ class Pieces:
         seen = t * (1 + NEAR)
         if left is not None:
             seen[left] = t[left] * (1 - NEAR) - TINY
-        at = np.minimum(np.searchsorted(self.edges, seen, side="right"), len(self.coefficients)) - 1
+        at = np.minimum(self.edges.searchsorted(seen, side="right"), len(self.coefficients)) - 1
         piece = np.maximum(at, 0)
         x = (t - self.edges[piece]) * (2 / (self.edges[1:] - self.edges[:-1]))[piece] - 1
         basis = chebyshev_basis(np.minimum(np.maximum(x, -1.0), 1.0))
@@ -41,7 +41,7 @@ class Pieces:
         values = np.zeros((rows.shape[1], len(t)))
         new = np.ones(len(t), dtype=bool)
         new[1:] = at[1:] != at[:-1]
-        cuts = [*np.flatnonzero(new).tolist(), len(t)]
+        cuts = [*new.nonzero()[0].tolist(), len(t)]
         for (low, high), j in zip(pairwise(cuts), at[new].tolist(), strict=True):
             if j >= 0:
                 np.matmul(rows[j], basis[:, low:high], out=values[:, low:high])
@@ -61,14 +61,16 @@ class Pieces:
 def chebyshev_basis(x: np.ndarray, p: int = P) -> np.ndarray:
     """T_0 .. T_{p-1} at x (n,) in [-1, 1], shape (p, n); p <= P + 2.
 
-    T_k = cos(k arccos x) = Re z^k, z = x + j sqrt(1 - x^2); z^{m+k} = z^m z^k for k = 1 .. m at once, m = 1, 2, 4 ...
+    T_k = cos(k arccos x);   with D = 2 T, D_{m+k} = D_m D_k - D_{m-k} for k = 1 .. m at once, m = 1, 2, 4 ...
     """
     if len(x) <= FEW:
         return np.cos(DEGREES[:p] * np.arccos(x))
-    powers = np.empty((p, len(x)), dtype=complex)
-    powers[0], powers[1].real, powers[1].imag, m = 1.0, x, np.sqrt(1 - x * x), 1
+    D, m = np.empty((p, len(x))), 1
+    D[0], D[1] = 2.0, 2 * x
     while m < p - 1:
         k = min(m, p - 1 - m)
-        np.multiply(powers[1 : k + 1], powers[m], out=powers[m + 1 : m + k + 1])
+        following = np.multiply(D[1 : k + 1], D[m], out=D[m + 1 : m + k + 1])
+        following -= D[m - k : m][::-1]
         m *= 2
-    return powers.real.copy()
+    D *= 0.5
+    return D

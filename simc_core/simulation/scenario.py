@@ -1,7 +1,7 @@
 """What is asked of a simulation, and what comes back."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -22,6 +22,7 @@ class Scenario:
     slowest mode of the loop settles to 1 %.   points: instants on the grid; at a jump both limits are added.
     t: explicit increasing instants, returned exactly as given, right-hand limits at jumps.
     u_min, u_max, tracking_time, noise, seed, h: see Actuation; by default the loop is linear.
+    actuation: these together, what stands between controller and plant.
     """
 
     setpoint: float = 1.0
@@ -38,6 +39,7 @@ class Scenario:
     h: float = 0.0
     disturbance2: float = 1.0
     disturbance2_time: float | None = None
+    actuation: Actuation = field(init=False, repr=False)
 
     def __post_init__(self):
         put = object.__setattr__
@@ -51,14 +53,9 @@ class Scenario:
         put(self, "points", checks.whole("points", self.points, 2, MOST_POINTS))
         if self.t is not None:
             put(self, "t", instants(self.t))
-        actuation = self.actuation  # which checks what it is made of
+        put(self, "actuation", Actuation(*[getattr(self, name) for name in ACTUATION]))  # which checks them
         for name in ACTUATION:
-            put(self, name, getattr(actuation, name))
-
-    @property
-    def actuation(self) -> Actuation:
-        """What stands between controller and plant."""
-        return Actuation(*(getattr(self, name) for name in ACTUATION))
+            put(self, name, getattr(self.actuation, name))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,6 +1,7 @@
 """Unit step responses put together to a scenario: on which instants, with both limits where something jumps."""
 
 import math
+from bisect import bisect_right
 from collections.abc import Sequence
 
 import numpy as np
@@ -25,14 +26,15 @@ def superposed(
         t, left = scenario.t, np.zeros(len(scenario.t), dtype=bool)
     else:
         jumping = jump_times(pieces)
-        jumps = np.concatenate([starts, *(jumping[i] + starts[i] for i in used)])
-        t, left = doubled(np.linspace(0.0, t_end, scenario.points), np.unique(jumps[jumps <= t_end])[:MOST_JUMPS])
-    inputs = np.array([held(t, start, height) for start, height in zip(starts, heights, strict=True)])
-    for source, start in zip(inputs, starts, strict=True):
-        source[left & (t == start)] = 0.0
+        jumps = sorted({*starts, *[edge + starts[i] for i in used for edge in jumping[i]]})
+        jumps = jumps[: min(bisect_right(jumps, t_end), MOST_JUMPS)]
+        t, left = doubled(np.linspace(0.0, t_end, scenario.points), jumps)
+    first, inputs = t.searchsorted(starts).tolist(), np.zeros((len(starts), len(t)))
+    for source, height, i in zip(inputs, heights, first, strict=True):
+        source[i:] = height
+        source[i : i + 1][left[i : i + 1]] = 0.0  # the left-hand limit
     outputs = np.zeros((pieces.coefficients.shape[2], len(t)))
     if used:  # one row of instants for all sources, each from where it begins
-        first = np.searchsorted(t, starts).tolist()
         since = np.concatenate([t[first[i] :] - starts[i] for i in used])
         values = pieces(since, np.concatenate([left[first[i] :] for i in used]))
         begin = 0
@@ -48,7 +50,7 @@ def held(t: np.ndarray, begins: float, height: float) -> np.ndarray:
     return np.where(t >= begins, height, 0.0)
 
 
-def doubled(t: np.ndarray, jumps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def doubled(t: np.ndarray, jumps: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
     """t with each of `jumps` in it twice, and which are the first of the two."""
     grid = np.sort(np.concatenate([t, jumps, jumps]), kind="stable")  # which knows sorted runs
     third = np.zeros(len(grid), dtype=bool)
@@ -59,10 +61,10 @@ def doubled(t: np.ndarray, jumps: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return grid, left
 
 
-def jump_times(pieces: Pieces) -> list[np.ndarray]:
+def jump_times(pieces: Pieces) -> list[list[float]]:
     """For each source, where a signal jumps, t = 0 included."""
     size, right = pieces.ends()
-    scale = np.abs(right).max(axis=0) + math.ulp(0.0)
+    scale = np.maximum.reduce(np.abs(right), axis=0) + math.ulp(0.0)
     size[1:] -= right[:-1]
-    jumping = (np.abs(size) > JUMP * scale).any(axis=1)
-    return [pieces.edges[:-1][each] for each in jumping.T]
+    jumping = np.logical_or.reduce(np.abs(size) > JUMP * scale, axis=1)
+    return [pieces.edges[:-1][each].tolist() for each in jumping.T]
