@@ -113,6 +113,6 @@ EXAMPLES = (
         "Unstable",
         Plant(-1.0, 1.0, (-10.0,)),
         "[SK98] eq. 23-24",
-        "e^{-s}/(10 s - 1), a theta = 0.1: the published Ms is 1.80.",
+        "Unstable pole at a = 0.1, a theta = 0.1: the published Ms is 1.80.",
     ),
 )

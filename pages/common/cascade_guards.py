@@ -9,7 +9,7 @@ from pages.common import state
 from pages.common.cascade_readout import separation, trouble
 from pages.common.cascade_study import CascadeStudy, speed_symbol
 from pages.common.guards import STYLE
-from pages.common.symbols import symbols
+from pages.common.symbols import sentence, symbols
 from simc_core.errors import NotReducible, SimcError
 
 
@@ -24,7 +24,7 @@ def show(study: CascadeStudy) -> None:
                 f"*Give the {'inner' if inside else 'outer'} loop a larger ${speed_symbol(study.cascade)}$.*"
             )
         for note in study.design.notes:
-            st.warning(symbols(note))
+            st.warning(sentence(note))
         if study.unsettled:
             st.warning(symbols(f"No IAE: {study.unsettled}"))
         if study.sound and (study.cascade.method == "synthesis" or study.separate):
@@ -37,7 +37,7 @@ def viewed() -> Iterator[None]:
     try:
         yield
     except SimcError as error:
-        st.warning(f"**This cannot be shown.** {symbols(str(error))}")
+        st.warning(f"**This cannot be shown.** {sentence(str(error))}")
 
 
 def offer_synthesis(refusal: SimcError) -> None:

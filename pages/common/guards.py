@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import streamlit as st
 
 from pages.common.study import Study
-from pages.common.symbols import symbols
+from pages.common.symbols import sentence, symbols
 from simc_core.advice import advice
 from simc_core.errors import NotReducible, SimcError
 from simc_core.notation import number
@@ -24,9 +24,9 @@ def spoken() -> Iterator[None]:
     try:
         yield
     except NotReducible as error:
-        st.error(f"**The half rule does not cover this plant.** {symbols(str(error))}")
+        st.error(f"**The half rule does not cover this plant.** {sentence(str(error))}")
     except SimcError as error:
-        st.error(f"**This design is not possible.** {symbols(str(error))}")
+        st.error(f"**This design is not possible.** {sentence(str(error))}")
 
 
 def show(study: Study) -> None:

@@ -7,7 +7,7 @@ import streamlit as st
 from pages.common import state
 from pages.common.panels import show
 from pages.common.study import Study
-from pages.common.symbols import symbols
+from pages.common.symbols import sentence, symbols
 from simc_core.figures import bode_figure, budget_figure, model_error_figure, plant_step_figure
 from simc_core.model_error import ModelError, model_error
 from simc_core.notation import latex, latex_number, number
@@ -60,7 +60,7 @@ def story(reduction: Reduction) -> None:
             st.markdown(f"{i}. {symbols(step.text)}" + (f"  \n   ${step.equation}$" if step.equation else ""))
     st.caption("[SK03 eq. 10-11 and rules T1-T3; V06 eq. 15-17]")
     for note in reduction.notes:
-        st.info(symbols(note))
+        st.info(sentence(note))
 
 
 def budget(reduction: Reduction) -> None:

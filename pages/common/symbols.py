@@ -34,6 +34,7 @@ SYMBOLS = {
     "Kd": "$K_d$",
     "Ki": "$K_i$",
     "K_I": "$K_I$",
+    "k_db": "$k_{db}$",
     "k'": "$k'$",
     "k''": "$k''$",
     "<=": "≤",
@@ -41,8 +42,15 @@ SYMBOLS = {
     "deg": "°",
 }
 WORD = re.compile(r"(?<![\w'])(?:" + "|".join(map(re.escape, sorted(SYMBOLS, key=len, reverse=True))) + r")(?![\w'])")
+NEGATIVE = re.compile(r"(?<![\w.^{)-])-(?=[\d.])")  # the sign of a number
 
 
 def symbols(text: str) -> str:
-    """`text` for st.markdown, with Greek letters and indices in place of their plain names."""
-    return WORD.sub(lambda found: SYMBOLS[found[0]], text)
+    """`text` for st.markdown, with Greek letters, indices and minus signs in place of their plain names."""
+    return NEGATIVE.sub("−", WORD.sub(lambda found: SYMBOLS[found[0]], text))
+
+
+def sentence(text: str) -> str:
+    """The same with a capital at its beginning, unless that is a symbol."""
+    shown = symbols(text)
+    return shown[0].upper() + shown[1:] if re.match(r"[a-z]{3}", shown) else shown
