@@ -41,7 +41,7 @@ class Winding:
 
 
 def winding(f: Characteristic) -> Winding:
-    """Zeros of f in the right half plane. Raises InvalidParameter where the work would exceed MOST_SEGMENTS."""
+    """Zeros of f, neutral < 1, in the right half plane. Raises InvalidParameter: work beyond MOST_SEGMENTS."""
     return windings([f])[0]
 
 
