@@ -1,13 +1,14 @@
 """The loop on one element: everything that differs between tunings of a plant, as one constant matrix for each.
 
     z = u + d,   u = f(t) + xi - Kp p - Kd p' - Ki int p        xi: the integral at the start of the element
-    f = Kp b rF + Ki int rF + Kd c rF'                          rF = r (1 - q e^{-t/tau_F}), a step through the filter
+    f = Kp b rF + Ki int rF + Kd c rF'                          rF: the step of r through the filter,
+                                                                r (1 - e^{-t/tau_F}) + rF_0 e^{-t/tau_F}
 
 With measured.py's maps p, p', int p are matrices times (w at the nodes, x_0), so the element is linear in w and
 
-    S = (x_0, xi, r, d, q)      (y, z at the nodes, their coefficients for pace.py, S at the end) = G (w, S)
+    S = (x_0, xi, r, d, rF_0)   (y, z at the nodes, their coefficients for pace.py, S at the end) = G (w, S)
 
-r and d are the steps themselves, which stay; q is what the filter of the set point still lacks.
+r and d are the steps themselves, which stay; rF_0 is there only with a filter.
 """
 
 from collections.abc import Sequence
@@ -53,7 +54,6 @@ class Law:
         n = self.levels.chain.n
         S = np.zeros((len(self.gains), self.size, 2))
         S[:, n + 1, 0] = S[:, n + 2, 1] = 1.0
-        S[:, n + 3 :, 0] = 1.0
         return S
 
     def __getitem__(self, level: int) -> OnLevel:
@@ -68,9 +68,9 @@ class Law:
     def _on(self, elements: Elements) -> np.ndarray:
         """G on each of the levels, (L, n, END + size, P + size)."""
         L, n, own = len(elements.levels), len(self.gains), P + self.levels.chain.n  # own: columns of the plant's maps
-        xi, r, d, q = range(own, own + 4)
+        xi, r, d, rF = range(own, own + 4)
         begin = END - P  # from the column to the row of each
-        nodes, Ki = elements.nodes[:, None], self.Ki
+        nodes, Ki, tau_F = elements.nodes[:, None], self.Ki, self.tau_F
         G = np.zeros((L, n, END + self.size, P + self.size))
         y, fed_back = elements.signals[0], self.gains @ elements.signals[1:].reshape(SIGNALS - 1, -1)
         G[:, :, Y, :own] = y[:, None]
@@ -81,11 +81,14 @@ class Law:
         G[:, :, begin + xi, :own] = -Ki * elements.signals[3][:, None, -1]
         G[:, :, begin + xi, r] = Ki[:, 0] * elements.length[:, None]
         G[:, :, begin + xi, xi] = G[:, :, begin + r, r] = G[:, :, begin + d, d] = 1.0
-        if self.tau_F:
-            late = np.exp(nodes / -self.tau_F)
-            G[:, :, Z, q] = (self.kick / self.tau_F - self.ahead) * late - Ki * self.tau_F * (1 - late)
-            G[:, :, begin + xi, q] = Ki[:, 0] * self.tau_F * np.expm1(elements.length[:, None] / -self.tau_F)
-            G[:, :, begin + q, q] = late[..., -1]
+        if tau_F:
+            late, risen = np.exp(nodes / -tau_F), -np.expm1(nodes / -tau_F)  # risen: 1 - late, without cancellation
+            slope, gained = self.kick / tau_F * late, Ki * tau_F * risen
+            G[:, :, Z, r] = self.ahead * risen + slope + Ki * nodes - gained
+            G[:, :, Z, rF] = self.ahead * late - slope + gained
+            G[:, :, begin + xi, r] -= gained[..., -1]
+            G[:, :, begin + xi, rF] = gained[..., -1]
+            G[:, :, begin + rF, r], G[:, :, begin + rF, rF] = risen[..., -1], late[..., -1]
         spectra = SPECTRUM @ G[:, :, : 2 * P].reshape(L, n, 2, P, -1)
         G[:, :, 2 * P : END] = spectra.reshape(L, n, 2, 2, 2, -1).swapaxes(2, 3).reshape(L, n, 8, -1)
         return G

@@ -171,6 +171,14 @@ def test_without_dead_time_within_1e_9(plant, controller, load):
     np.testing.assert_allclose(unit_step(loop, load, t), reference(loop, load, t), rtol=0, atol=WITHIN)
 
 
+@pytest.mark.parametrize("tau_F", [1e3, 1e6])
+def test_a_filter_much_slower_than_the_plant_passes_little_at_first_and_that_exactly(tau_F):
+    """u begins as Kp t/tau_F: nothing of it may be lost against Kp. Relative errors."""
+    loop = Loop(Plant(2, 0, (1e-3, 5)), SeriesPid(1.5, 10 * tau_F, tau_F, tau_F))
+    t = np.array([1e-5, 1e-4, 1e-3, 0.02, 1, 7, 100])
+    np.testing.assert_allclose(unit_step(loop, False, t), reference(loop, False, t), rtol=WITHIN)
+
+
 def random_loop(rng: np.random.Generator) -> Loop:
     """Lags over three decades about theta, zeros on either side, pairs, integrators, unstable plants, all forms."""
     theta = 2.0 ** rng.integers(-6, 7)
