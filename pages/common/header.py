@@ -1,5 +1,7 @@
 """The line on top of every page, and the sidebar: what is being worked on, where we are, how to take it along."""
 
+from functools import partial
+
 import streamlit as st
 
 from pages.common import project, state
@@ -89,9 +91,8 @@ def _notices() -> None:
 def _take_along() -> None:
     st.caption("Link to this page and design")
     st.code(state.address(), language=None)
-    st.download_button(
-        "Save project", project.dump(state.design_now()), "simc-project.json", "application/json", width="stretch"
-    )
+    content = partial(project.dump, state.design_now())  # made when asked for: nothing is stored that runs replace
+    st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
     upload = st.file_uploader("Open project", type="json", key="project_file")
     if upload is not None:
         _open(upload)

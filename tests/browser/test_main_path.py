@@ -1,10 +1,13 @@
 """The main job, as an engineer does it: type a plant, reduce it, move tau_c, read Ms, hand the link on."""
 
 import re
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Page, expect
 
+from pages.common.project import load
+from simc_core import Plant
 from tests.browser.tools import THEMES, WIDTHS, fits, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1: PI Kc 0.57, tau_I 8
@@ -145,3 +148,13 @@ def test_keys_in_quick_succession_are_all_counted(server, open_page):
     page.wait_for_url(re.compile("plant=2.08%2F"))
     idle(page, settle=0.5)
     assert "plant=2.08%2F" in page.url
+
+
+def test_the_saved_project_holds_the_design_that_is_shown(server, open_page):
+    page = open_page(f"{server}/tuning?plant=2/(5s%2B1)*exp(-s)&tau_c=3")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save project").click()
+    assert download.value.suggested_filename == "simc-project.json"
+    design, reason = load(Path(download.value.path()).read_bytes())
+    assert reason == ""
+    assert (design.plant, design.tuning.tau_c) == (Plant(2.0, 1.0, (5.0,)), 3.0)
