@@ -11,7 +11,7 @@ import numpy as np
 
 from simc_core import Loop, cascade
 from simc_core.interop import closed_loop, to_tf
-from simc_core.loop import factored_plant
+from simc_core.loops.loop import factored_plant
 from simc_core.simulation.levels import levels
 from simc_core.simulation.several_delays import steps_of
 from simc_core.simulation.simulate import settled

@@ -5,8 +5,8 @@ import streamlit as st
 from pages.common import header, state
 from pages.common.plant_view import size
 from pages.common.symbols import symbols
-from simc_core.examples import EXAMPLES
 from simc_core.notation import latex
+from simc_core.plants.examples import EXAMPLES
 
 A_ROW = 3
 

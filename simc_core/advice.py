@@ -3,9 +3,10 @@
 import math
 from dataclasses import dataclass
 
-from simc_core.controllers import Controller
+from simc_core.controllers.forms import Controller
 from simc_core.errors import FormError
-from simc_core.models import (
+from simc_core.notation import number
+from simc_core.plants.models import (
     FirstOrderDelay,
     IntegratingDelay,
     Model,
@@ -13,7 +14,6 @@ from simc_core.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
-from simc_core.notation import number
 from simc_core.reduction import LARGEST_MS, Reduction
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from simc_core.loop import Loop
+from simc_core.loops.loop import Loop
 from simc_core.simulation import Scenario, TimeResponse, simulate
 from simc_core.simulation.actuation import SAME, STEPS, Actuation, Inputs, Stepped, tracking_time
 from simc_core.simulation.horizon import times

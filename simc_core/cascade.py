@@ -14,8 +14,8 @@ import numpy as np
 
 from simc_core.crossings import Crossings, search
 from simc_core.logresponse import Closed, FactoredResponse, Response, Series
+from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.margins import NOT_STABLE, Margins, crossings, margins, margins_of
-from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.stability import Stability, Verdict, count_unstable, stability
 
 RECENT = 64  # loops that are remembered

@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 
 from simc_core import checks
 from simc_core.cascade import NestedStability
-from simc_core.controllers import Controller, IController, ParallelPid
+from simc_core.controllers.forms import Controller, IController, ParallelPid
 from simc_core.direct_synthesis import KINDS, direct_synthesis, numerator
 from simc_core.errors import InvalidParameter
 from simc_core.fastest import fastest
 from simc_core.half_rule import half_rule
-from simc_core.models import Model
-from simc_core.nested import CascadeLoop, NestedLoops
-from simc_core.plant import Plant
+from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.plants.models import Model
+from simc_core.plants.plant import Plant
 from simc_core.simc import simc, tau_c_presets
 from simc_core.stability import Stability, stability
 

@@ -11,7 +11,7 @@ from simc_core.cascade_design import CascadeDesign, simc_cascade, synthesis_casc
 from simc_core.margins import Margins, margins
 from simc_core.nested_performance import NestedPerformance
 from simc_core.performance import performance
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 ROUNDED = "The authors round lambda; the exact Ms moves the settings by up to 1.2 %."
 

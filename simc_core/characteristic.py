@@ -27,7 +27,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.factors import Factored, Row, product, rows_of
+from simc_core.algebra.factors import Factored, Row, product, rows_of
 
 WELL_DAMPED = math.sqrt(2.0)  # b >= sqrt(2 a c): |a s^2 + b s + c| grows with omega all along the axis
 

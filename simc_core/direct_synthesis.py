@@ -22,12 +22,12 @@ from functools import lru_cache
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers import ParallelPid
+from simc_core.algebra.laurent import TERMS, Laurent, expansion, exponential, polynomial
+from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
-from simc_core.laurent import TERMS, Laurent, expansion, exponential, polynomial
-from simc_core.loop import Loop
-from simc_core.nested import NestedLoops
-from simc_core.plant import Plant
+from simc_core.loops.loop import Loop
+from simc_core.loops.nested import NestedLoops
+from simc_core.plants.plant import Plant
 
 KINDS = ("PI", "PID")
 MOST_POLES = 6  # of a block: the expansion is cut off at TERMS, and needs 2 n + 3

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from simc_core.cascade import Ms_of
 from simc_core.errors import InvalidParameter
-from simc_core.nested import NestedLoops, closed_inside
+from simc_core.loops.nested import NestedLoops, closed_inside
 from simc_core.stability import count_unstable
 
 FASTEST, SLOWEST, SPEEDS = 1e-2, 1e2, 65  # in units of the scale

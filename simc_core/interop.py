@@ -16,11 +16,11 @@ import numpy as np
 from scipy import signal
 
 from simc_core import checks
-from simc_core.controllers import Controller, ParallelPid
+from simc_core.algebra.factors import Factored
+from simc_core.controllers.forms import Controller, ParallelPid
 from simc_core.errors import FormError, InvalidParameter
-from simc_core.factors import Factored
-from simc_core.loop import Loop
-from simc_core.plant import Plant
+from simc_core.loops.loop import Loop
+from simc_core.plants.plant import Plant
 
 HIGHEST_PADE = 20  # beyond it the coefficients of the approximation itself are rounding
 RATIONAL = (control.TransferFunction, control.StateSpace, signal.lti)

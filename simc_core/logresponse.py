@@ -24,7 +24,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from simc_core.factors import Factored, log_product, product, roots_of, rows_of, without_common
+from simc_core.algebra.factors import Factored, log_product, product, roots_of, rows_of, without_common
 
 Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
 

@@ -21,7 +21,7 @@ import numpy as np
 
 from simc_core.crossings import Crossings, search, search_many
 from simc_core.logresponse import FactoredResponse, Response
-from simc_core.loop import Loop
+from simc_core.loops.loop import Loop
 from simc_core.stability import Stability, stability, stability_many
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core.errors import NotStable
+from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.metrics import Steps
-from simc_core.nested import CascadeLoop, NestedLoops
 from simc_core.performance import StepMetrics, metrics_of, performance
 from simc_core.simulation.nested import time_scale
 from simc_core.simulation.pieces import Pieces

@@ -9,9 +9,9 @@ from decimal import Decimal  # 28 digits by default, enough for any zeta
 from fractions import Fraction
 from itertools import groupby
 
-from simc_core.controllers import Controller, IController, IdealPid, ParallelPid, SeriesPid
-from simc_core.models import Model
-from simc_core.plant import Plant
+from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
+from simc_core.plants.models import Model
+from simc_core.plants.plant import Plant
 
 DIGITS = 4  # significant digits of numbers meant for the eye
 

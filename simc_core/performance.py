@@ -11,7 +11,7 @@ from functools import singledispatch
 import numpy as np
 
 from simc_core.errors import NotStable
-from simc_core.loop import Loop
+from simc_core.loops.loop import Loop
 from simc_core.metrics import Steps, measures
 from simc_core.simulation.course import Course
 from simc_core.simulation.simulate import settled

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.factors import Factored, factors, without_common
-from simc_core.loop import Loop
-from simc_core.realisation import chain
+from simc_core.algebra.factors import Factored, factors, without_common
+from simc_core.algebra.state_space import chain
+from simc_core.loops.loop import Loop
 
 FEWEST_NODES, MOST_NODES = 20, 120
 NODES_PER_RADIAN = 1.0  # beyond FEWEST_NODES, for theta omega of the fastest oscillation worth seeing

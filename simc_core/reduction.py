@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from simc_core.models import Model
+from simc_core.plants.models import Model
 
 LARGEST_MS = 2.0  # [SK03]: Ms should be below about 2; 1.4 to 1.7 is usual
 

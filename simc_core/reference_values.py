@@ -5,9 +5,9 @@ tests/core/high_precision.py holds the methods, tests/core/test_references.py co
 
 from dataclasses import dataclass
 
-from simc_core.controllers import IController, SeriesPid
-from simc_core.loop import Loop
-from simc_core.plant import Plant
+from simc_core.controllers.forms import IController, SeriesPid
+from simc_core.loops.loop import Loop
+from simc_core.plants.plant import Plant
 
 FIRST_ORDER = Loop(Plant(1, 1, (1,)), SeriesPid(0.5, 1))  # L = e^{-s}/(2 s)
 INTEGRATING = Loop(Plant(1, 1, integrators=1), SeriesPid(0.5, 8))

@@ -11,14 +11,14 @@ from functools import lru_cache, partial
 import numpy as np
 
 from simc_core.cascade_design import synthesis_cascade
-from simc_core.controllers import Controller, IController, ParallelPid, SeriesPid
+from simc_core.controllers.forms import Controller, IController, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
 from simc_core.half_rule import half_rule
-from simc_core.loop import Loop
+from simc_core.loops.loop import Loop
+from simc_core.loops.nested import CascadeLoop
 from simc_core.margins import margins
-from simc_core.nested import CascadeLoop
 from simc_core.performance import performance
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 from simc_core.reference_values import (
     DOUBLE_INTEGRATING,
     FIRST_ORDER,

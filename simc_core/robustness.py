@@ -16,9 +16,9 @@ import numpy as np
 from scipy.stats import qmc
 
 from simc_core import checks
-from simc_core.loop import Loop
+from simc_core.loops.loop import Loop
 from simc_core.margins import margins
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 LARGEST = 0.9  # a change of 100 % would leave no plant
 SAMPLES, SEED = 24, 1979

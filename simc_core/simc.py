@@ -17,9 +17,9 @@ tau_c, the closed-loop time constant, is the only tuning parameter; tau_c = thet
 import math
 
 from simc_core import checks
-from simc_core.controllers import IController, IdealPid, SeriesPid
+from simc_core.controllers.forms import IController, IdealPid, SeriesPid
 from simc_core.errors import InvalidParameter
-from simc_core.models import (
+from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,
     IntegratingDelay,

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from simc_core.dynamics import Dynamics
-from simc_core.models import (
+from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,
     IntegratingDelay,

@@ -3,7 +3,8 @@
 import math
 
 from simc_core.dynamics import Dynamics
-from simc_core.models import (
+from simc_core.notation import latex, latex_number, number, times_s
+from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,
     Model,
@@ -11,7 +12,6 @@ from simc_core.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
-from simc_core.notation import latex, latex_number, number, times_s
 from simc_core.reduction import LARGEST_MS, Candidate, Share, Step
 from simc_core.split import Outcome
 from simc_core.zeros import Match

@@ -16,7 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from simc_core.errors import InvalidParameter
-from simc_core.models import FirstOrderDelay, Model, SecondOrderDelay
+from simc_core.plants.models import FirstOrderDelay, Model, SecondOrderDelay
 
 PER_DECADE = 14
 STENCIL = 4

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from simc_core.algebra.factors import roots_of
 from simc_core.characteristic import Characteristic
 from simc_core.errors import InvalidParameter
-from simc_core.factors import roots_of
 from simc_core.segment_bounds import Family
 from simc_core.segments import Nodes, geometric, side_by_side, split
 

@@ -12,9 +12,9 @@ import streamlit as st
 
 from pages.common.cascade_study import CascadeStudy
 from pages.common.tuning_widgets import FIELDS, has_form, in_form
-from simc_core.controllers import Controller, IController
+from simc_core.controllers.forms import Controller, IController
 from simc_core.notation import latex_factors, number, plain
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 LINE, CHARACTER, SMALL = 14, 6.3, 4.6  # px: line height, width of a letter and of one in an exponent
 RADIUS = 9  # of a summing point

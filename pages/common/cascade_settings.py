@@ -6,7 +6,7 @@ from pages.common.cascade_study import CascadeStudy
 from pages.common.design import FORMS
 from pages.common.symbols import symbols
 from pages.common.tuning_widgets import STRUCTURE, as_text, in_form
-from simc_core.controllers import Controller
+from simc_core.controllers.forms import Controller
 from simc_core.errors import FormError
 
 

@@ -7,12 +7,12 @@ from pages.common.design import Cascade
 from simc_core.cascade import NestedStability
 from simc_core.cascade_design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
 from simc_core.cascade_examples import PairRow
-from simc_core.controllers import IController
+from simc_core.controllers.forms import IController
 from simc_core.errors import SimcError
-from simc_core.grid import omega_grid
-from simc_core.loop import FrequencyResponse, frequency_response
+from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.loop import FrequencyResponse, frequency_response
+from simc_core.loops.nested import CascadeLoop
 from simc_core.margins import Margins, margins
-from simc_core.nested import CascadeLoop
 from simc_core.nested_performance import NestedPerformance
 from simc_core.performance import performance
 from simc_core.simulation import NestedResponse, Scenario, simulate

@@ -8,7 +8,7 @@ import streamlit as st
 from pages.common.cascade_study import CascadeStudy, starts, time_responses
 from pages.common.panels import show
 from simc_core.figures import inner_setpoint_figure, input_figure, output_figure
-from simc_core.nested import CascadeLoop
+from simc_core.loops.nested import CascadeLoop
 from simc_core.notation import number
 from simc_core.simulation import NestedResponse
 from simc_core.simulation.windup import limited

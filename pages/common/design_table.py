@@ -7,7 +7,7 @@ from pages.common.design import MOST_PINS, Tuning
 from pages.common.study import Study, study
 from simc_core.errors import SimcError
 from simc_core.notation import number
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 LETTERS = "ABCD"
 LABELS = (

@@ -7,7 +7,7 @@ import streamlit as st
 from pages.common import project, state
 from pages.common.design import Design
 from simc_core.notation import latex
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 TITLES = {
     "home": "Home",

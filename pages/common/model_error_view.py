@@ -9,8 +9,8 @@ from pages.common.panels import show
 from pages.common.study import Study
 from pages.common.symbols import symbols
 from simc_core.figures.robustness import band_figure, bundle_figure
-from simc_core.grid import omega_grid
-from simc_core.loop import Loop
+from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.loop import Loop
 from simc_core.notation import number
 from simc_core.robustness import Robustness, robustness
 from simc_core.simulation import Scenario, TimeResponse, simulate

@@ -14,8 +14,8 @@ import streamlit as st
 from pages.common import entries, state
 from simc_core import Plant, parse_plant
 from simc_core.errors import ParseError, SimcError
-from simc_core.examples import EXAMPLES
 from simc_core.notation import plain
+from simc_core.plants.examples import EXAMPLES
 
 WAYS = ("Text", "Factors", "Polynomials", "Examples")
 PAUSE = "400ms"  # of typing, after which the text is read

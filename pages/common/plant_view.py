@@ -5,7 +5,7 @@ import streamlit as st
 from simc_core import Plant
 from simc_core.figures import bode_figure, config, plant_step_figure, pole_zero_figure
 from simc_core.notation import latex, latex_number
-from simc_core.plant_step import plant_step
+from simc_core.plants.step_response import plant_step
 
 GAINS = ("k", "k'", "k''", "k'''", "k''''")
 SIZES = ((7, r"\tiny"), (5, r"\scriptsize"), (4, r"\footnotesize"))  # from this many different factors on

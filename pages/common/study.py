@@ -6,15 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from pages.common.design import Tuning
-from simc_core.controllers import Controller
+from simc_core.controllers.forms import Controller
 from simc_core.errors import NotStable
-from simc_core.grid import omega_grid
 from simc_core.half_rule import half_rule
-from simc_core.loop import FrequencyResponse, Loop, frequency_response
+from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.margins import Margins, margins
-from simc_core.models import Model, UnstableDelay
 from simc_core.performance import Performance, StepMetrics, performance
-from simc_core.plant import Plant
+from simc_core.plants.models import Model, UnstableDelay
+from simc_core.plants.plant import Plant
 from simc_core.reduction import Reduction
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, TimeResponse, simulate

@@ -9,10 +9,10 @@ from pages.common import state
 from pages.common.design import FORMS, KINDS
 from pages.common.study import Study
 from simc_core.checks import LONGEST_TIME
-from simc_core.controllers import Controller, IController
+from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import FormError
-from simc_core.models import Model, UnstableDelay
 from simc_core.notation import latex, number
+from simc_core.plants.models import Model, UnstableDelay
 from simc_core.simc import tau_c_presets
 
 STEPS_PER_DECADE = 20

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.factors import Factored
-from simc_core.nested import NestedLoops
+from simc_core.algebra.factors import Factored
+from simc_core.loops.nested import NestedLoops
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ import numpy as np
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 SAME = 10  # significant digits to which two poles are one multiple pole
 

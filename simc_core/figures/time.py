@@ -11,7 +11,7 @@ import numpy as np
 from simc_core.as_built import AsBuilt
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
-from simc_core.plant_step import PlantStep
+from simc_core.plants.step_response import PlantStep
 from simc_core.simulation import NestedResponse, TimeResponse
 
 NestedCurves = Sequence[tuple[str, NestedResponse]]

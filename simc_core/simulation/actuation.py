@@ -20,7 +20,7 @@ import numpy as np
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
-from simc_core.loop import Loop
+from simc_core.loops.loop import Loop
 from simc_core.simulation.one_step import Linear, Step
 
 STEPS = 5000  # at least; more where theta or h is short against the horizon

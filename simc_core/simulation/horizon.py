@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from simc_core.errors import SimcError
-from simc_core.loop import Loop
+from simc_core.loops.loop import Loop
 from simc_core.poles import dominant_poles
 from simc_core.simulation.scenario import Scenario
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.controllers import ParallelPid
+from simc_core.controllers.forms import ParallelPid
 from simc_core.simulation.elements import TO_CHEBYSHEV, P
 from simc_core.simulation.levels import EYE, Elements, Levels
 from simc_core.simulation.measured import SIGNALS

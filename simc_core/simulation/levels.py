@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 from simc_core.simulation.elements import NODES, TO_CHEBYSHEV, P, mesh
 from simc_core.simulation.measured import Measured
 

@@ -22,10 +22,10 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
-from simc_core.controllers import ParallelPid
+from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.logresponse import FactoredResponse
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 from simc_core.simulation.course import Course, Stretch, course
 from simc_core.simulation.elements import P
 from simc_core.simulation.law import END, PARTS, Law, Z

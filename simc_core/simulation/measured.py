@@ -14,10 +14,10 @@ which is the collocation method of the whole chain. Columns of every map: (w at 
 
 import numpy as np
 
+from simc_core.algebra.state_space import Row, sections
 from simc_core.errors import InvalidParameter
-from simc_core.loop import factored_plant
-from simc_core.plant import Plant
-from simc_core.realisation import Row, sections
+from simc_core.loops.loop import factored_plant
+from simc_core.plants.plant import Plant
 from simc_core.simulation.elements import COLLOCATION, P
 
 SIGNALS = 4  # y, p, p', integral of p

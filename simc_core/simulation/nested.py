@@ -6,7 +6,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.errors import InvalidParameter
-from simc_core.nested import CascadeLoop, NestedLoops
+from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.simulation.elements import P
 from simc_core.simulation.horizon import round_up
 from simc_core.simulation.pieces import Pieces

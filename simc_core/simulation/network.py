@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import block_diag
 
-from simc_core.controllers import ParallelPid
+from simc_core.algebra.state_space import chain
+from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
-from simc_core.nested import NestedLoops
-from simc_core.realisation import chain
+from simc_core.loops.nested import NestedLoops
 
 WELL_POSED = 1e-12
 

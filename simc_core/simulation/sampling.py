@@ -13,9 +13,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from simc_core.controllers import ParallelPid
-from simc_core.loop import Loop
-from simc_core.realisation import chain
+from simc_core.algebra.state_space import chain
+from simc_core.controllers.forms import ParallelPid
+from simc_core.loops.loop import Loop
 from simc_core.simulation.actuation import (
     OF_PLANT,
     SAME,

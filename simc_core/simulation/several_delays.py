@@ -16,7 +16,7 @@ from threading import Lock
 import numpy as np
 
 from simc_core.errors import InvalidParameter
-from simc_core.nested import NestedLoops
+from simc_core.loops.nested import NestedLoops
 from simc_core.simulation.breakpoints import SMOOTH, Breakpoints
 from simc_core.simulation.delay_maps import LEFT, DelayMap, delay_map
 from simc_core.simulation.elements import NODES, P

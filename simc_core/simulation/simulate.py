@@ -4,7 +4,7 @@ from functools import lru_cache, singledispatch
 
 import numpy as np
 
-from simc_core.loop import Loop
+from simc_core.loops.loop import Loop
 from simc_core.simulation.actuation import Inputs, Stepped
 from simc_core.simulation.course import Course
 from simc_core.simulation.horizon import times

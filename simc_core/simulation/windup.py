@@ -16,9 +16,9 @@ import math
 
 import numpy as np
 
-from simc_core.controllers import Controller
+from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
-from simc_core.nested import CascadeLoop, NestedLoops
+from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.simulation.nested import NestedResponse, horizon
 from simc_core.simulation.network import Network, integral_states, network
 from simc_core.simulation.one_step import Linear

@@ -6,7 +6,7 @@ import pytest
 
 from simc_core import half_rule, simc
 from simc_core.cascade_examples import PAIRS
-from simc_core.examples import EXAMPLES
+from simc_core.plants.examples import EXAMPLES
 from tests.published import PUBLISHED, plant_of
 
 BY_KEY = {example.key: example for example in EXAMPLES}

@@ -8,7 +8,7 @@ import pytest
 from simc_core import FirstOrderDelay, Plant, SeriesPid, simc
 from simc_core.half_rule import half_rule
 from simc_core.model_error import model_error
-from simc_core.plant_step import plant_step
+from simc_core.plants.step_response import plant_step
 
 
 def test_a_perfect_model_has_no_error():

@@ -19,8 +19,8 @@ from simc_core import (
     parse_plant,
 )
 from simc_core.cascade_examples import PAIRS as CASCADES
-from simc_core.examples import EXAMPLES
 from simc_core.notation import latex, latex_number, number, plain
+from simc_core.plants.examples import EXAMPLES
 
 TAUS = st.floats(1e-6, 1e6)
 EITHER = TAUS | TAUS.map(lambda tau: -tau)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from simc_core import ParseError, Plant, SimcError, parse_plant
-from simc_core.parse import LONGEST_TEXT
+from simc_core.plants.parse import LONGEST_TEXT
 
 S = 0.3 + 0.7j
 

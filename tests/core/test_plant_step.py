@@ -6,7 +6,7 @@ import pytest
 
 from simc_core import Plant
 from simc_core.errors import InvalidParameter
-from simc_core.plant_step import plant_step, step_horizon
+from simc_core.plants.step_response import plant_step, step_horizon
 
 
 def damped(t):

@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from simc_core import IdealPid, Loop, Plant, SeriesPid
+from simc_core.algebra.factors import Factored
 from simc_core.characteristic import Characteristic, characteristic
-from simc_core.factors import Factored
 from simc_core.segment_bounds import Family
 from simc_core.segments import Nodes
 

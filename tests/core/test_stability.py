@@ -17,8 +17,8 @@ from simc_core import (
     count_unstable,
     stability,
 )
+from simc_core.algebra.factors import Factored, factors
 from simc_core.characteristic import characteristic, shifted
-from simc_core.factors import Factored, factors
 from simc_core.poles import rightmost
 from simc_core.winding import MOST_SEGMENTS, winding
 

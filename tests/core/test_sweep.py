@@ -21,7 +21,7 @@ from simc_core import (
     stability,
     sweep,
 )
-from simc_core.models import DoubleIntegratingDelay, FirstOrderDelay, IntegratingDelay
+from simc_core.plants.models import DoubleIntegratingDelay, FirstOrderDelay, IntegratingDelay
 from simc_core.sweep import MARGINS
 
 OMEGA = np.geomspace(0.01, 10, 50)

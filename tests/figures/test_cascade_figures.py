@@ -8,11 +8,11 @@ from scipy.integrate import trapezoid
 from simc_core import figures, frequency_response, margins, simulate
 from simc_core.cascade_design import single_loop, synthesis_cascade
 from simc_core.cascade_examples import PAIRS, ROWS
-from simc_core.controllers import ParallelPid
+from simc_core.controllers.forms import ParallelPid
 from simc_core.figures import palette
 from simc_core.figures.curves import nested_bode_curve
-from simc_core.grid import omega_grid
-from simc_core.nested import CascadeLoop
+from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.nested import CascadeLoop
 from simc_core.simulation import Scenario
 
 from .test_figures import labels, trace

@@ -10,7 +10,7 @@ from streamlit.testing.v1 import AppTest
 from pages.common import project
 from pages.common.design import Design, Tuning
 from simc_core import Plant
-from simc_core.examples import EXAMPLES
+from simc_core.plants.examples import EXAMPLES
 from tests.pages.tools import address, run_app, run_page, texts
 
 PLACES = ("home", "plant", "half_rule", "tuning", "accuracy")

@@ -16,8 +16,8 @@ from pages.common.cascade_study import designed
 from pages.common.design import Cascade
 from simc_core.cascade_design import CascadeDesign
 from simc_core.errors import SimcError
-from simc_core.models import Model
-from simc_core.nested import CascadeLoop
+from simc_core.loops.nested import CascadeLoop
+from simc_core.plants.models import Model
 from simc_core.simulation import Scenario, simulate
 from simc_core.tau_table import Rows, first_rows, kinks, refined
 

@@ -19,11 +19,11 @@ from pages.common.live.cascade_rows import PARAMETERS, Bench, Section, course, s
 from pages.common.live.packing import figures, pack
 from pages.common.live.table import BEYOND, SHORT_OF, settings
 from simc_core.cascade_design import CascadeDesign
-from simc_core.controllers import Controller
+from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
-from simc_core.grid import omega_grid
+from simc_core.loops.frequency_grid import omega_grid
 from simc_core.margins import Margins
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 from simc_core.simulation.nested import horizon
 
 LOOPS = ("inner", "outer")

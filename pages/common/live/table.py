@@ -10,12 +10,12 @@ import numpy as np
 from pages.common.design import Tuning
 from pages.common.live.packing import figures, pack
 from pages.common.study import Study
-from simc_core.controllers import Controller, IController
+from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import FormError
-from simc_core.grid import omega_grid
-from simc_core.loop import Loop
-from simc_core.models import Model, UnstableDelay
-from simc_core.plant import Plant
+from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.loop import Loop
+from simc_core.plants.models import Model, UnstableDelay
+from simc_core.plants.plant import Plant
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
 from simc_core.simulation.horizon import settling_horizon

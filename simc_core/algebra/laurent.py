@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.factors import Factored
+from simc_core.algebra.factors import Factored
 
 TERMS = 16
 

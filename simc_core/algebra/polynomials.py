@@ -7,8 +7,8 @@ from math import sqrt
 import numpy as np
 
 from simc_core import checks
+from simc_core.algebra.factors import quadratic_roots
 from simc_core.errors import InvalidParameter
-from simc_core.factors import quadratic_roots
 
 CLUSTER_RADII = (0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # relative; tried from coarse to fine
 SAME_POLYNOMIAL = 1e-11  # two polynomials are one if every coefficient agrees to this

@@ -6,7 +6,7 @@
 
 from dataclasses import dataclass
 
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 
 @dataclass(frozen=True, slots=True)

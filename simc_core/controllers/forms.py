@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core import checks
+from simc_core.algebra.factors import Factored, factors
 from simc_core.errors import FormError, InvalidParameter
-from simc_core.factors import Factored, factors
 
 DOUBLE_ROOT = 1e-12  # tau_I' = 4 tau_D' up to rounding counts as equality
 

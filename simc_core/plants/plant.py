@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core import checks
+from simc_core.algebra.factors import Factored, factors
+from simc_core.algebra.polynomials import factorise
 from simc_core.errors import InvalidParameter
-from simc_core.factors import Factored, factors
-from simc_core.polynomials import factorise
 
 
 @dataclass(frozen=True, slots=True)

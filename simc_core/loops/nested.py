@@ -18,11 +18,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers import Controller
+from simc_core.algebra.factors import Factored, factors
+from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
-from simc_core.factors import Factored, factors
-from simc_core.loop import FrequencyResponse, Loop, at_frequencies, frequency_response
-from simc_core.plant import Plant
+from simc_core.loops.loop import FrequencyResponse, Loop, at_frequencies, frequency_response
+from simc_core.plants.plant import Plant
 
 MOST_LOOPS = 6
 ONE = Factored(1.0, factors(), factors())

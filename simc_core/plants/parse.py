@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from simc_core import checks
 from simc_core.errors import ParseError
-from simc_core.exact import (
+from simc_core.plants.parse_values import (
     MINUS_ONE,
     MOST_PARTS,
     ONE,
@@ -33,7 +33,7 @@ from simc_core.exact import (
     times,
     too_large,
 )
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 LONGEST_TEXT = 2000
 DEEPEST = 50  # nested brackets

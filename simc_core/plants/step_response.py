@@ -11,8 +11,8 @@ import numpy as np
 from scipy.linalg import expm
 
 from simc_core import checks
-from simc_core.plant import Plant
-from simc_core.realisation import chain
+from simc_core.algebra.state_space import chain
+from simc_core.plants.plant import Plant
 
 POINTS = 600
 SETTLED = 4.0  # spreads of the decay after which a stable response is at rest to 2 %

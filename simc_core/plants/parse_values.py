@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from simc_core import checks
+from simc_core.algebra.polynomials import factorise
 from simc_core.errors import InvalidParameter
-from simc_core.plant import Plant
-from simc_core.polynomials import factorise
+from simc_core.plants.plant import Plant
 
 MOST_PARTS = 200  # factors of a product, before the plant's own bound on poles speaks
 MOST_BITS = 20_000  # of a coefficient on its way through powers and products

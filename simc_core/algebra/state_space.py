@@ -7,7 +7,7 @@ The engine of the time responses works on the sections; a state space is there f
 
 import numpy as np
 
-from simc_core.factors import Factored
+from simc_core.algebra.factors import Factored
 
 Row = tuple[float, float, float]
 

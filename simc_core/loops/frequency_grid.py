@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from simc_core.factors import Factored
+from simc_core.algebra.factors import Factored
 
 BEYOND = 10.0  # the grid reaches this far past the slowest and the fastest corner
 TURNS = 30.0  # largest omega theta drawn: beyond it the phase of the dead time only winds on

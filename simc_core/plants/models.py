@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 
 class _Model:

@@ -19,10 +19,10 @@ from functools import lru_cache, singledispatch
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers import Controller
+from simc_core.algebra.factors import Factored
+from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
-from simc_core.factors import Factored
-from simc_core.plant import Plant
+from simc_core.plants.plant import Plant
 
 MOST_FREQUENCIES = 1_000_000  # of one call, about 0.1 s
 

@@ -1,0 +1,1 @@
+"""PI, PID and I controllers: one type a form."""

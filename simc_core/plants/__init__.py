@@ -1,0 +1,1 @@
+"""The plant: its factors, reduced models, the reader of text, examples, the open-loop step."""
