@@ -9,13 +9,14 @@ from pathlib import Path
 import control
 import numpy as np
 
-from simc_core import Loop, cascade
+from simc_core import Loop
+from simc_core.certificate.verdict import remembered
 from simc_core.interop import closed_loop, to_tf
 from simc_core.loops.loop import factored_plant
+from simc_core.sensitivity import nested_margins as cascade
 from simc_core.simulation.levels import levels
 from simc_core.simulation.several_delays import steps_of
 from simc_core.simulation.simulate import settled
-from simc_core.stability import remembered
 
 ROUNDS = 9
 OF_LOOPS = (settled, remembered, steps_of, cascade.verdict, cascade.closed)

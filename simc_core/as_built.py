@@ -9,13 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from simc_core.certificate.verdict import stability
 from simc_core.loops.loop import Loop
 from simc_core.simulation import Scenario, TimeResponse, simulate
 from simc_core.simulation.actuation import SAME, STEPS, Actuation, Inputs, Stepped, tracking_time
 from simc_core.simulation.horizon import times
 from simc_core.simulation.saturation import actuated
 from simc_core.simulation.simulate import on_grid
-from simc_core.stability import stability
 
 MOST_DOUBLINGS = 3
 MANY_STEPS = 2 * STEPS  # a course of more has a step that does not grow with the horizon, and is not doubled

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from simc_core import checks
-from simc_core.cascade import NestedStability
+from simc_core.certificate.verdict import Stability, stability
 from simc_core.controllers.forms import Controller, IController, ParallelPid
 from simc_core.direct_synthesis import KINDS, direct_synthesis, numerator
 from simc_core.errors import InvalidParameter
@@ -20,8 +20,8 @@ from simc_core.half_rule import half_rule
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
+from simc_core.sensitivity.nested_margins import NestedStability
 from simc_core.simc import simc, tau_c_presets
-from simc_core.stability import Stability, stability
 
 SEPARATE = 5.0
 FILTER = 20.0  # tau_c/tau_F of the PID controllers of simc_cascade

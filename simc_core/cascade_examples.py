@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from simc_core.cascade_design import CascadeDesign, simc_cascade, synthesis_cascade
-from simc_core.margins import Margins, margins
 from simc_core.nested_performance import NestedPerformance
 from simc_core.performance import performance
 from simc_core.plants.plant import Plant
+from simc_core.sensitivity.margins import Margins, margins
 
 ROUNDED = "The authors round lambda; the exact Ms moves the settings by up to 1.2 %."
 

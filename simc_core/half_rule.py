@@ -26,10 +26,10 @@ from simc_core import checks
 from simc_core.dynamics import Dynamics, dynamics
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
-from simc_core.margins import margins
 from simc_core.plants.models import IntegratingDelay, Model, SecondOrderDelay
 from simc_core.plants.plant import Plant
 from simc_core.reduction import LARGEST_MS, Candidate, Reduction
+from simc_core.sensitivity.margins import margins
 from simc_core.simc import simc
 from simc_core.split import Outcome, delay_of, model_of, resolved, shape_of
 from simc_core.story import budget, notes, steps

@@ -13,13 +13,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import Loop, frequency_response
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.plants.step_response import PlantStep, plant_step, step_horizon
-from simc_core.stability import stability
 
 GOOD = 0.5  # a model that uses half of what the loop can bear is good; beyond 1 nothing is certain
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from simc_core.certificate.verdict import stability
 from simc_core.errors import NotStable
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.metrics import Steps
@@ -11,7 +12,6 @@ from simc_core.performance import StepMetrics, metrics_of, performance
 from simc_core.simulation.nested import time_scale
 from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.several_delays import steps_of
-from simc_core.stability import stability
 
 REST = 1e-9
 BEGIN = 8.0  # first horizon, in units of all times of the loops together

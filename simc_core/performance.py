@@ -10,12 +10,12 @@ from functools import singledispatch
 
 import numpy as np
 
+from simc_core.certificate.verdict import stability
 from simc_core.errors import NotStable
 from simc_core.loops.loop import Loop
 from simc_core.metrics import Steps, measures
 from simc_core.simulation.course import Course
 from simc_core.simulation.simulate import settled
-from simc_core.stability import stability
 
 OFFSET = 1e-7
 

@@ -17,8 +17,8 @@ from scipy.stats import qmc
 
 from simc_core import checks
 from simc_core.loops.loop import Loop
-from simc_core.margins import margins
 from simc_core.plants.plant import Plant
+from simc_core.sensitivity.margins import margins
 
 LARGEST = 0.9  # a change of 100 % would leave no plant
 SAMPLES, SEED = 24, 1979

@@ -13,8 +13,8 @@ from simc_core.figures import (
     output_figure,
 )
 from simc_core.figures.curves import bode_curve, nested_bode_curve
-from simc_core.margins import crossings
 from simc_core.notation import number
+from simc_core.sensitivity.margins import crossings
 
 HEIGHT, TALL = 215, 400  # px
 

@@ -8,8 +8,8 @@ from pages.common.cascade_study import CascadeStudy, gain_in_IAE, speed_symbol
 from pages.common.readout import DIGITS, STYLE, Reading, band_of, cell_html, hover, reading
 from simc_core.cascade_design import SEPARATE
 from simc_core.figures import palette
-from simc_core.margins import Margins
 from simc_core.notation import number
+from simc_core.sensitivity.margins import Margins
 
 SHORT = {"calm": "calm (≤ 1.6)", "attention": "attention (≤ 2.0)", "alarm": "alarm (> 2.0)"}
 MORE_STYLE = f"""<style>

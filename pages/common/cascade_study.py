@@ -4,19 +4,19 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from pages.common.design import Cascade
-from simc_core.cascade import NestedStability
 from simc_core.cascade_design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
 from simc_core.cascade_examples import PairRow
+from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import IController
 from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import FrequencyResponse, frequency_response
 from simc_core.loops.nested import CascadeLoop
-from simc_core.margins import Margins, margins
 from simc_core.nested_performance import NestedPerformance
 from simc_core.performance import performance
+from simc_core.sensitivity.margins import Margins, margins
+from simc_core.sensitivity.nested_margins import NestedStability
 from simc_core.simulation import NestedResponse, Scenario, simulate
-from simc_core.stability import stability
 
 USUAL_MS = 2.0  # what direct synthesis aims at where nothing is asked for
 KEPT = 16  # cascades of all sessions; direct synthesis searches 0.05 to 0.2 s, and every click on the page asks again

@@ -15,8 +15,8 @@ from simc_core.figures import (
     sensitivity_figure,
 )
 from simc_core.figures.curves import bode_curve
-from simc_core.margins import crossings
 from simc_core.notation import number
+from simc_core.sensitivity.margins import crossings
 
 HEIGHT, TALL = 250, 480  # px
 NARROW = "@media (max-width: 640px)"

@@ -12,7 +12,7 @@ import numpy as np
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.loops.loop import FrequencyResponse
-from simc_core.margins import Margins
+from simc_core.sensitivity.margins import Margins
 
 REFERENCES = ((1.4, 110.0), (1.6, 160.0), (2.0, 60.0))  # Ms, and where the label interrupts its circle, degrees
 LABEL, HEIGHT = 0.14, 0.04  # half length of the interruption, and what a label covers to either side, in units of L

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
+from simc_core.certificate.poles import dominant_poles
 from simc_core.errors import SimcError
 from simc_core.loops.loop import Loop
-from simc_core.poles import dominant_poles
 from simc_core.simulation.scenario import Scenario
 
 SETTLED = 4.6  # time constants of the slowest mode, e^{-4.6} = 1 %

@@ -24,8 +24,8 @@ from scipy.linalg.lapack import dgesv
 
 from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
-from simc_core.logresponse import FactoredResponse
 from simc_core.plants.plant import Plant
+from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.simulation.course import Course, Stretch, course
 from simc_core.simulation.elements import P
 from simc_core.simulation.law import END, PARTS, Law, Z

@@ -4,6 +4,7 @@ from functools import lru_cache, singledispatch
 
 import numpy as np
 
+from simc_core.certificate.verdict import stability
 from simc_core.loops.loop import Loop
 from simc_core.simulation.actuation import Inputs, Stepped
 from simc_core.simulation.course import Course
@@ -13,7 +14,6 @@ from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.saturation import actuated
 from simc_core.simulation.scenario import Scenario, TimeResponse
 from simc_core.simulation.superposition import doubled, held, superposed
-from simc_core.stability import stability
 
 
 @singledispatch

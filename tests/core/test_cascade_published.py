@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from simc_core import CascadeDesign, CascadeLoop, ParallelPid, Plant, margins, performance, synthesis_cascade
-from simc_core.stability import stability
+from simc_core.certificate.verdict import stability
 from tests.core.pairs import PAIRS
 
 HALF_DIGIT = 5.1e-5  # of settings

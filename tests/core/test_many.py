@@ -18,10 +18,10 @@ from simc_core import (
     margins_many,
     stability_many,
 )
-from simc_core.characteristic import characteristic
-from simc_core.crossings import search, search_many
-from simc_core.logresponse import FactoredResponse
-from simc_core.winding import windings
+from simc_core.certificate.characteristic import characteristic
+from simc_core.certificate.winding import windings
+from simc_core.sensitivity.crossings import search, search_many
+from simc_core.sensitivity.log_response import FactoredResponse
 
 
 def random_plant(rng: np.random.Generator) -> Plant:

@@ -19,8 +19,8 @@ from simc_core import (
     margins_of,
     stability,
 )
-from simc_core.logresponse import Closed, FactoredResponse, Series, Together
-from simc_core.search_grid import MOST_NODES, search_grid
+from simc_core.sensitivity.log_response import Closed, FactoredResponse, Series, Together
+from simc_core.sensitivity.search_grid import MOST_NODES, search_grid
 from tests.published import select
 
 QUANTITY = {

@@ -8,7 +8,7 @@ import pytest
 from scipy.special import lambertw
 
 from simc_core import IController, IdealPid, Loop, Plant, SeriesPid, count_unstable, dominant_poles, stability
-from simc_core.characteristic import shifted
+from simc_core.certificate.characteristic import shifted
 
 
 def upper(values) -> list[complex]:

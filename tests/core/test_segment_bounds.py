@@ -6,9 +6,9 @@ import numpy as np
 
 from simc_core import IdealPid, Loop, Plant, SeriesPid
 from simc_core.algebra.factors import Factored
-from simc_core.characteristic import Characteristic, characteristic
-from simc_core.segment_bounds import Family
-from simc_core.segments import Nodes
+from simc_core.certificate.argument_bounds import Family
+from simc_core.certificate.characteristic import Characteristic, characteristic
+from simc_core.certificate.segments import Nodes
 
 FINE = 2000
 

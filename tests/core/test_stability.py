@@ -18,9 +18,9 @@ from simc_core import (
     stability,
 )
 from simc_core.algebra.factors import Factored, factors
-from simc_core.characteristic import characteristic, shifted
-from simc_core.poles import rightmost
-from simc_core.winding import MOST_SEGMENTS, winding
+from simc_core.certificate.characteristic import characteristic, shifted
+from simc_core.certificate.poles import rightmost
+from simc_core.certificate.winding import MOST_SEGMENTS, winding
 
 
 def verdict(plant: Plant, controller) -> tuple[str, int | float]:

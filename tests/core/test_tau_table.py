@@ -7,8 +7,8 @@ import pytest
 
 from simc_core import Loop, Plant, simc
 from simc_core.errors import InvalidParameter
-from simc_core.margins import margins
 from simc_core.plants.models import FirstOrderDelay
+from simc_core.sensitivity.margins import margins
 from simc_core.tau_table import MOST_ROWS, first_rows, kinks, read, refined, smallest
 
 

@@ -11,9 +11,9 @@ from simc_core.figures.curves import bode_curve
 from simc_core.figures.nyquist import mt_circle
 from simc_core.half_rule import half_rule
 from simc_core.loops.frequency_grid import omega_grid
-from simc_core.margins import crossings, margins
 from simc_core.model_error import model_error
 from simc_core.plants.step_response import plant_step
+from simc_core.sensitivity.margins import crossings, margins
 from simc_core.simulation import Scenario, simulate
 
 TIGHT = Loop(Plant(1.0, 1.0, (8.0,)), SeriesPid(4.0, 8.0))  # L = 0.5 e^{-s}/s, exact margins in theory.md

@@ -16,8 +16,8 @@ from pages.common.live import components, table
 from pages.common.live.cascade_instrument import cascade_instrument
 from pages.common.study import Study
 from simc_core.errors import InvalidParameter
-from simc_core.margins import margins
 from simc_core.plants.plant import Plant
+from simc_core.sensitivity.margins import margins
 from simc_core.tau_table import smallest
 
 __all__ = ["cascade_instrument", "instrument"]

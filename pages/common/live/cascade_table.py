@@ -22,8 +22,8 @@ from simc_core.cascade_design import CascadeDesign
 from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid
-from simc_core.margins import Margins
 from simc_core.plants.plant import Plant
+from simc_core.sensitivity.margins import Margins
 from simc_core.simulation.nested import horizon
 
 LOOPS = ("inner", "outer")

@@ -10,6 +10,7 @@ import numpy as np
 from pages.common.design import Tuning
 from pages.common.live.packing import figures, pack
 from pages.common.study import Study
+from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import FormError
 from simc_core.loops.frequency_grid import omega_grid
@@ -19,7 +20,6 @@ from simc_core.plants.plant import Plant
 from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
 from simc_core.simulation.horizon import settling_horizon
-from simc_core.stability import stability
 from simc_core.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
 from simc_core.tau_table import Rows, first_rows, kinks, refined
 

@@ -23,8 +23,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.logresponse import LARGEST, FactoredResponse, Response, Together, sensitivities
-from simc_core.search_grid import Evaluate, Grid, sampled, search_grid
+from simc_core.sensitivity.log_response import LARGEST, FactoredResponse, Response, Together, sensitivities
+from simc_core.sensitivity.search_grid import Evaluate, Grid, sampled, search_grid
 
 TOGETHER = 32  # loops; more do not fit the cache
 FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding

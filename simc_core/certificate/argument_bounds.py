@@ -17,9 +17,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.characteristic import Characteristic
-from simc_core.segments import Nodes
-from simc_core.term_table import table
+from simc_core.certificate.bound_tables import table
+from simc_core.certificate.characteristic import Characteristic
+from simc_core.certificate.segments import Nodes
 
 ROUNDING = 4 * np.finfo(float).eps  # of one factor, generously
 SMALLEST = 1e-150  # |q| below it is taken for it: log 0 is kept out

@@ -12,11 +12,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from simc_core.crossings import Crossings, search
-from simc_core.logresponse import Closed, FactoredResponse, Response, Series
+from simc_core.certificate.verdict import Stability, Verdict, count_unstable, stability
 from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.margins import NOT_STABLE, Margins, crossings, margins, margins_of
-from simc_core.stability import Stability, Verdict, count_unstable, stability
+from simc_core.sensitivity.crossings import Crossings, search
+from simc_core.sensitivity.log_response import Closed, FactoredResponse, Response, Series
+from simc_core.sensitivity.margins import NOT_STABLE, Margins, crossings, margins, margins_of
 
 RECENT = 64  # loops that are remembered
 RESONANCE = 1.05  # a peak of |T| above this bends the response enough to deserve nodes of its own

@@ -19,10 +19,10 @@ from functools import singledispatch
 
 import numpy as np
 
-from simc_core.crossings import Crossings, search, search_many
-from simc_core.logresponse import FactoredResponse, Response
+from simc_core.certificate.verdict import Stability, stability, stability_many
 from simc_core.loops.loop import Loop
-from simc_core.stability import Stability, stability, stability_many
+from simc_core.sensitivity.crossings import Crossings, search, search_many
+from simc_core.sensitivity.log_response import FactoredResponse, Response
 
 
 @dataclass(frozen=True, slots=True)

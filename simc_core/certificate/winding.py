@@ -17,10 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core.algebra.factors import roots_of
-from simc_core.characteristic import Characteristic
+from simc_core.certificate.argument_bounds import Family
+from simc_core.certificate.characteristic import Characteristic
+from simc_core.certificate.segments import Nodes, geometric, side_by_side, split
 from simc_core.errors import InvalidParameter
-from simc_core.segment_bounds import Family
-from simc_core.segments import Nodes, geometric, side_by_side, split
 
 MOST_SEGMENTS = 60_000  # of one loop, about 0.1 s; a usual one needs 30 to 100
 TOGETHER = 40  # loops; more do not fit the cache

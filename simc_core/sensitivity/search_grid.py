@@ -17,8 +17,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.logresponse import Logs, Response, sensitivities
-from simc_core.segments import geometric, ragged, side_by_side
+from simc_core.certificate.segments import geometric, ragged, side_by_side
+from simc_core.sensitivity.log_response import Logs, Response, sensitivities
 
 GRID_PER_DECADE = 24
 PHASE_STEP = 0.3

@@ -19,10 +19,10 @@ from functools import lru_cache, singledispatch
 from typing import Literal
 
 from simc_core.algebra.factors import Factored
-from simc_core.characteristic import Characteristic, characteristic, shifted
+from simc_core.certificate.characteristic import Characteristic, characteristic, shifted
+from simc_core.certificate.winding import winding, windings
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
-from simc_core.winding import winding, windings
 
 SAME = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
