@@ -9,8 +9,8 @@ from dataclasses import replace
 
 from benchmarks.recompute import keep, median_times, pin
 from simc_core import Loop, Plant, Scenario, SeriesPid, simulate
-from simc_core.simulation.actuation import STEPS, Inputs
-from simc_core.simulation.saturation import actuated
+from simc_core.simulation.actuator.actuation import STEPS, Inputs
+from simc_core.simulation.actuator.continuous import actuated
 
 LOOPS = {
     "order 1, PI": Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)),

@@ -14,8 +14,8 @@ from simc_core.certificate.verdict import remembered
 from simc_core.interop import closed_loop, to_tf
 from simc_core.loops.loop import factored_plant
 from simc_core.sensitivity import nested_margins as cascade
-from simc_core.simulation.levels import levels
-from simc_core.simulation.several_delays import steps_of
+from simc_core.simulation.one_delay.element_sizes import levels
+from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.simulate import settled
 
 ROUNDS = 9

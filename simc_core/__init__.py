@@ -9,8 +9,8 @@ from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStabl
 from simc_core.half_rule import half_rule
 from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.nested_performance import NestedPerformance
-from simc_core.performance import Performance, StepMetrics, performance
+from simc_core.metrics.nested_performance import NestedPerformance
+from simc_core.metrics.performance import Performance, StepMetrics, performance
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,

@@ -12,9 +12,9 @@ import numpy as np
 from simc_core.certificate.verdict import stability
 from simc_core.loops.loop import Loop
 from simc_core.simulation import Scenario, TimeResponse, simulate
-from simc_core.simulation.actuation import SAME, STEPS, Actuation, Inputs, Stepped, tracking_time
+from simc_core.simulation.actuator.actuation import SAME, STEPS, Actuation, Inputs, Stepped, tracking_time
+from simc_core.simulation.actuator.continuous import actuated
 from simc_core.simulation.horizon import times
-from simc_core.simulation.saturation import actuated
 from simc_core.simulation.simulate import on_grid
 
 MOST_DOUBLINGS = 3

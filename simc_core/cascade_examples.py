@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from simc_core.cascade_design import CascadeDesign, simc_cascade, synthesis_cascade
-from simc_core.nested_performance import NestedPerformance
-from simc_core.performance import performance
+from simc_core.metrics.nested_performance import NestedPerformance
+from simc_core.metrics.performance import performance
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import Margins, margins
 

@@ -17,7 +17,7 @@ from simc_core.errors import SimcError
 from simc_core.half_rule import half_rule
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop
-from simc_core.performance import performance
+from simc_core.metrics.performance import performance
 from simc_core.plants.plant import Plant
 from simc_core.reference_values import (
     DOUBLE_INTEGRATING,

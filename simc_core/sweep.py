@@ -15,14 +15,14 @@ from simc_core import checks
 from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop, at_frequencies
-from simc_core.metrics import measures
-from simc_core.performance import both_steps
+from simc_core.metrics.performance import both_steps
+from simc_core.metrics.step_metrics import measures
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins_many
 from simc_core.simc import simc
-from simc_core.simulation.course import Course
-from simc_core.simulation.march import march
+from simc_core.simulation.one_delay.march import march
+from simc_core.simulation.one_delay.unit_responses import Course
 from simc_core.simulation.scenario import instants
 
 MOST_TUNINGS = 10_000

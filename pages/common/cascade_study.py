@@ -12,8 +12,8 @@ from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import FrequencyResponse, frequency_response
 from simc_core.loops.nested import CascadeLoop
-from simc_core.nested_performance import NestedPerformance
-from simc_core.performance import performance
+from simc_core.metrics.nested_performance import NestedPerformance
+from simc_core.metrics.performance import performance
 from simc_core.sensitivity.margins import Margins, margins
 from simc_core.sensitivity.nested_margins import NestedStability
 from simc_core.simulation import NestedResponse, Scenario, simulate

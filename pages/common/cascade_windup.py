@@ -11,7 +11,7 @@ from simc_core.figures import inner_setpoint_figure, input_figure, output_figure
 from simc_core.loops.nested import CascadeLoop
 from simc_core.notation import number
 from simc_core.simulation import NestedResponse
-from simc_core.simulation.windup import limited
+from simc_core.simulation.nested_windup import limited
 
 HEIGHT = 300  # px
 KEPT = 8

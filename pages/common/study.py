@@ -11,7 +11,7 @@ from simc_core.errors import NotStable
 from simc_core.half_rule import half_rule
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
-from simc_core.performance import Performance, StepMetrics, performance
+from simc_core.metrics.performance import Performance, StepMetrics, performance
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
 from simc_core.reduction import Reduction

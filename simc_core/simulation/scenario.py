@@ -7,7 +7,7 @@ import numpy as np
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
-from simc_core.simulation.actuation import Actuation
+from simc_core.simulation.actuator.actuation import Actuation
 
 MOST_POINTS = 100_000
 ACTUATION = ("u_min", "u_max", "tracking_time", "noise", "seed", "h")

@@ -6,12 +6,12 @@ import numpy as np
 
 from simc_core.certificate.verdict import stability
 from simc_core.loops.loop import Loop
-from simc_core.simulation.actuation import Inputs, Stepped
-from simc_core.simulation.course import Course
+from simc_core.simulation.actuator.actuation import Inputs, Stepped
+from simc_core.simulation.actuator.continuous import actuated
+from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import times
-from simc_core.simulation.march import march
-from simc_core.simulation.pieces import Pieces
-from simc_core.simulation.saturation import actuated
+from simc_core.simulation.one_delay.march import march
+from simc_core.simulation.one_delay.unit_responses import Course
 from simc_core.simulation.scenario import Scenario, TimeResponse
 from simc_core.simulation.superposition import doubled, held, superposed
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from simc_core.simulation.pieces import Pieces
+from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.scenario import Scenario
 
 JUMP = 1e-9  # of the largest value; smaller steps between pieces are rounding

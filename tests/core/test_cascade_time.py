@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, SeriesPid, simulate
-from simc_core.simulation.elements import P
-from simc_core.simulation.network import network
-from simc_core.simulation.several_delays import Steps, steps_of
+from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.several_delays.network import network
+from simc_core.simulation.several_delays.stepper import Steps, steps_of
 from tests.core.pairs import PAIRS
 
 NODES = 32  # of the contour: about 1e-19 of the largest term of the series

@@ -17,7 +17,7 @@ from simc_core import (
     performance,
     stability,
 )
-from simc_core.simulation.several_delays import steps_of
+from simc_core.simulation.several_delays.stepper import steps_of
 
 K, THETA, TAU = (1.0, 2.0, 1.5), (0.2, 0.4, 1.0), (0.5, 3.0, 20.0)  # first-order blocks, from the inside out
 BLOCKS = tuple(Plant(k, theta, (tau,)) for k, theta, tau in zip(K, THETA, TAU, strict=True))

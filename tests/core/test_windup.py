@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from simc_core import CascadeLoop, InvalidParameter, ParallelPid, Plant, Scenario, simc_cascade, simulate
-from simc_core.simulation.windup import PROTECTIONS, limited
+from simc_core.simulation.nested_windup import PROTECTIONS, limited
 from tests.core.pairs import PAIRS
 
 LOOP = simc_cascade(*PAIRS[1], inner="PID").loop

@@ -24,7 +24,7 @@ from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import Margins
-from simc_core.simulation.nested import horizon
+from simc_core.simulation.simulate_nested import horizon
 
 LOOPS = ("inner", "outer")
 SHORTEST, LONGEST = 0.2, 10.0  # on a slider, of tight tau_c, or of the dead time in the loop

@@ -18,7 +18,7 @@ from simc_core.algebra.state_space import Row, sections
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import factored_plant
 from simc_core.plants.plant import Plant
-from simc_core.simulation.elements import COLLOCATION, P
+from simc_core.simulation.collocation.elements import COLLOCATION, P
 
 SIGNALS = 4  # y, p, p', integral of p
 EYE = np.eye(P)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.simulation.elements import P
-from simc_core.simulation.pieces import chebyshev_basis
+from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.pieces import chebyshev_basis
 
 INTERVALS = 64
 SAMPLES = np.cos(np.pi * np.arange(INTERVALS, -1, -1) / INTERVALS)

@@ -22,7 +22,7 @@ from simc_core.algebra.state_space import chain
 from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
-from simc_core.simulation.actuation import (
+from simc_core.simulation.actuator.actuation import (
     OF_PLANT,
     STEPS,
     W1,
@@ -35,9 +35,9 @@ from simc_core.simulation.actuation import (
     stepped,
     tracking_time,
 )
-from simc_core.simulation.march import WELL_POSED
-from simc_core.simulation.one_step import Linear
-from simc_core.simulation.sampling import sampled
+from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.actuator.sampled import sampled
+from simc_core.simulation.one_delay.march import WELL_POSED
 
 # Columns of z behind x. ASKED: u at the start and the end of the step before if there were no limits, GIVEN: as it is.
 # ASKED1 and INTEGRAL lack what u of that step adds to them.   ASK, RATE: see _known, RATE over the whole step.

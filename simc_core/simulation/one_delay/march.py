@@ -26,11 +26,11 @@ from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
-from simc_core.simulation.course import Course, Stretch, course
-from simc_core.simulation.elements import P
-from simc_core.simulation.law import END, PARTS, Law, Z
-from simc_core.simulation.levels import levels
-from simc_core.simulation.pace import TAIL, Pace
+from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.one_delay.closed_element import END, PARTS, Law, Z
+from simc_core.simulation.one_delay.element_sizes import levels
+from simc_core.simulation.one_delay.step_control import TAIL, Pace
+from simc_core.simulation.one_delay.unit_responses import Course, Stretch, course
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it

@@ -7,11 +7,11 @@ from numpy.polynomial import chebyshev
 
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.simulation.elements import P
+from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import round_up
-from simc_core.simulation.pieces import Pieces
 from simc_core.simulation.scenario import Scenario
-from simc_core.simulation.several_delays import steps_of
+from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.simulate import simulate
 from simc_core.simulation.superposition import superposed
 

@@ -16,7 +16,7 @@ import numpy as np
 from simc_core.algebra.state_space import chain
 from simc_core.controllers.forms import ParallelPid
 from simc_core.loops.loop import Loop
-from simc_core.simulation.actuation import (
+from simc_core.simulation.actuator.actuation import (
     OF_PLANT,
     SAME,
     STEPS,
@@ -30,7 +30,7 @@ from simc_core.simulation.actuation import (
     stepped,
     tracking_time,
 )
-from simc_core.simulation.one_step import Linear
+from simc_core.simulation.actuator.one_step import Linear
 
 # Columns of z behind x. MEASURED: y at the end of the step before, but for its u.   FILTERED, INTEGRAL, ASKED: yF, I, v
 # of the last sample.   GIVEN: u of the step before.   NOISE, SETPOINT, MOVE: see _known, in the rows of the samples.

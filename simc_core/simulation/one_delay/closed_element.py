@@ -17,10 +17,10 @@ from typing import NamedTuple
 import numpy as np
 
 from simc_core.controllers.forms import ParallelPid
-from simc_core.simulation.elements import TO_CHEBYSHEV, P
-from simc_core.simulation.levels import EYE, Elements, Levels
-from simc_core.simulation.measured import SIGNALS
-from simc_core.simulation.pace import MIDDLE
+from simc_core.simulation.collocation.elements import TO_CHEBYSHEV, P
+from simc_core.simulation.one_delay.element_sizes import EYE, Elements, Levels
+from simc_core.simulation.one_delay.process_maps import SIGNALS
+from simc_core.simulation.one_delay.step_control import MIDDLE
 
 SPECTRUM = TO_CHEBYSHEV[[MIDDLE - 1, MIDDLE, P - 2, P - 1]]  # of nodal values: the coefficients that pace.py goes by
 Y, Z, END = slice(P), slice(P, 2 * P), 2 * P + 8  # rows of G; in between two middle ones of y and z, two last ones

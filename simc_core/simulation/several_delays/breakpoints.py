@@ -11,7 +11,7 @@ import heapq
 import numpy as np
 
 from simc_core.errors import InvalidParameter
-from simc_core.simulation.network import Network
+from simc_core.simulation.several_delays.network import Network
 
 SMOOTH = 8  # order of derivative from which a jump is left to step control
 SMALL = 1e-13  # jumps of the size of the step times this are none

@@ -19,9 +19,9 @@ import numpy as np
 from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.simulation.nested import NestedResponse, horizon
-from simc_core.simulation.network import Network, integral_states, network
-from simc_core.simulation.one_step import Linear
+from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.several_delays.network import Network, integral_states, network
+from simc_core.simulation.simulate_nested import NestedResponse, horizon
 from simc_core.simulation.superposition import held
 
 STEPS, MOST_STEPS = 3000, 40_000

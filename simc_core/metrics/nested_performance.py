@@ -7,11 +7,11 @@ import numpy as np
 from simc_core.certificate.verdict import stability
 from simc_core.errors import NotStable
 from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.metrics import Steps
-from simc_core.performance import StepMetrics, metrics_of, performance
-from simc_core.simulation.nested import time_scale
-from simc_core.simulation.pieces import Pieces
-from simc_core.simulation.several_delays import steps_of
+from simc_core.metrics.performance import StepMetrics, metrics_of, performance
+from simc_core.metrics.step_metrics import Steps
+from simc_core.simulation.collocation.pieces import Pieces
+from simc_core.simulation.several_delays.stepper import steps_of
+from simc_core.simulation.simulate_nested import time_scale
 
 REST = 1e-9
 BEGIN = 8.0  # first horizon, in units of all times of the loops together

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.simulation.elements import TO_CHEBYSHEV, P
-from simc_core.simulation.pieces import NEAR, Pieces, chebyshev_basis
+from simc_core.simulation.collocation.elements import TO_CHEBYSHEV, P
+from simc_core.simulation.collocation.pieces import NEAR, Pieces, chebyshev_basis
 
 
 class Stretch(NamedTuple):

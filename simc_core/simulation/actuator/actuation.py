@@ -21,7 +21,7 @@ import numpy as np
 from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
-from simc_core.simulation.one_step import Linear, Step
+from simc_core.simulation.actuator.one_step import Linear, Step
 
 STEPS = 5000  # at least; more where theta or h is short against the horizon
 MOST_STEPS = 50_000  # less than 0.1 s

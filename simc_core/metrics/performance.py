@@ -13,8 +13,8 @@ import numpy as np
 from simc_core.certificate.verdict import stability
 from simc_core.errors import NotStable
 from simc_core.loops.loop import Loop
-from simc_core.metrics import Steps, measures
-from simc_core.simulation.course import Course
+from simc_core.metrics.step_metrics import Steps, measures
+from simc_core.simulation.one_delay.unit_responses import Course
 from simc_core.simulation.simulate import settled
 
 OFFSET = 1e-7

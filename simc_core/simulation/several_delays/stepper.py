@@ -17,11 +17,11 @@ import numpy as np
 
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import NestedLoops
-from simc_core.simulation.breakpoints import SMOOTH, Breakpoints
-from simc_core.simulation.delay_maps import LEFT, DelayMap, delay_map
-from simc_core.simulation.elements import NODES, P
-from simc_core.simulation.network import Network, network
-from simc_core.simulation.pieces import Pieces
+from simc_core.simulation.collocation.elements import NODES, P
+from simc_core.simulation.collocation.pieces import Pieces
+from simc_core.simulation.several_delays.breakpoints import SMOOTH, Breakpoints
+from simc_core.simulation.several_delays.delay_maps import LEFT, DelayMap, delay_map
+from simc_core.simulation.several_delays.network import Network, network
 
 TAIL = 3e-10  # last two coefficients of an element, relative to the largest value so far
 ROOM = 2.0**-10  # the tail must be below ROOM TAIL for the length to be doubled at once

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.piece_zeros import SLOPE, Crossings, Turns, crossings
-from simc_core.simulation.elements import P
-from simc_core.simulation.pieces import ENDS
+from simc_core.metrics.piece_zeros import SLOPE, Crossings, Turns, crossings
+from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.pieces import ENDS
 
 NOISE = 1e-11  # of the largest value; what changes less in a piece has come to rest, its signs are rounding
 LEVELS = np.array(  # the end, 10 % and 90 %, the band of 2 %; of a load step in units of its peak

@@ -1,0 +1,1 @@
+"""IAE, ISE, ITAE, TV, overshoot, peak, rise and settling of unit steps over an infinite horizon."""

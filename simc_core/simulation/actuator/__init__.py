@@ -1,0 +1,1 @@
+"""What stands between controller and plant: limits, anti-windup, noise, sampling."""

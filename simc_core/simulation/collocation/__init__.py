@@ -1,0 +1,1 @@
+"""Radau collocation on one element, and responses as pieces of it."""
