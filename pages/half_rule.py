@@ -4,7 +4,7 @@ import streamlit as st
 
 from pages.common import guards, header, reduction_view, state
 from pages.common.study import study
-from simc_core.half_rule import half_rule
+from simc_core.reduction.half_rule import half_rule
 
 header.show("half_rule")
 with guards.spoken():

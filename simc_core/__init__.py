@@ -4,9 +4,7 @@ from simc_core.cascade_design import CascadeDesign, simc_cascade, synthesis_casc
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.certificate.verdict import Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
-from simc_core.direct_synthesis import direct_synthesis
 from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStable, ParseError, SimcError
-from simc_core.half_rule import half_rule
 from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.metrics.nested_performance import NestedPerformance
@@ -21,9 +19,11 @@ from simc_core.plants.models import (
 )
 from simc_core.plants.parse import parse_plant
 from simc_core.plants.plant import Plant
-from simc_core.reduction import Candidate, Reduction, Share, Step
+from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.records import Candidate, Reduction, Share, Step
+from simc_core.rules.direct_synthesis import direct_synthesis
+from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import Margins, crossings, margins, margins_many, margins_of
 from simc_core.sensitivity.nested_margins import NestedStability
-from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.sweep import Sweep, sweep

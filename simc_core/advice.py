@@ -14,7 +14,7 @@ from simc_core.plants.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
-from simc_core.reduction import LARGEST_MS, Reduction
+from simc_core.reduction.records import LARGEST_MS, Reduction
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]

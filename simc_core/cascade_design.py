@@ -13,15 +13,15 @@ from dataclasses import dataclass, replace
 from simc_core import checks
 from simc_core.certificate.verdict import Stability, stability
 from simc_core.controllers.forms import Controller, IController, ParallelPid
-from simc_core.direct_synthesis import KINDS, direct_synthesis, numerator
 from simc_core.errors import InvalidParameter
-from simc_core.fastest import fastest
-from simc_core.half_rule import half_rule
 from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.optimal.speed_for_peak import fastest
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
+from simc_core.reduction.half_rule import half_rule
+from simc_core.rules.direct_synthesis import KINDS, direct_synthesis, numerator
+from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.nested_margins import NestedStability
-from simc_core.simc import simc, tau_c_presets
 
 SEPARATE = 5.0
 FILTER = 20.0  # tau_c/tau_F of the PID controllers of simc_cascade

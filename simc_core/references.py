@@ -14,11 +14,11 @@ from simc_core.cascade_design import synthesis_cascade
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller, IController, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
-from simc_core.half_rule import half_rule
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop
 from simc_core.metrics.performance import performance
 from simc_core.plants.plant import Plant
+from simc_core.reduction.half_rule import half_rule
 from simc_core.reference_values import (
     DOUBLE_INTEGRATING,
     FIRST_ORDER,
@@ -29,8 +29,8 @@ from simc_core.reference_values import (
     TIME_CASES,
     TimeCase,
 )
+from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
-from simc_core.simc import simc
 from simc_core.simulation import Scenario, simulate
 
 HAND, DIGITS = "by hand", "mpmath, 60 digits"

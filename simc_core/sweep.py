@@ -19,8 +19,8 @@ from simc_core.metrics.performance import both_steps
 from simc_core.metrics.step_metrics import measures
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
+from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins_many
-from simc_core.simc import simc
 from simc_core.simulation.one_delay.march import march
 from simc_core.simulation.one_delay.unit_responses import Course
 from simc_core.simulation.scenario import instants

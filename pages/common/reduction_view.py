@@ -9,9 +9,9 @@ from pages.common.panels import show
 from pages.common.study import Study
 from pages.common.symbols import sentence, symbols
 from simc_core.figures import bode_figure, budget_figure, model_error_figure, plant_step_figure
-from simc_core.model_error import ModelError, model_error
 from simc_core.notation import latex, latex_number, number
-from simc_core.reduction import Reduction
+from simc_core.reduction.model_error import ModelError, model_error
+from simc_core.reduction.records import Reduction
 
 HEIGHT, TALL = 260, 400  # px
 ORDERS = {1: "1 (PI)", 2: "2 (PID)"}

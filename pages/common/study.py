@@ -8,15 +8,15 @@ import numpy as np
 from pages.common.design import Tuning
 from simc_core.controllers.forms import Controller
 from simc_core.errors import NotStable
-from simc_core.half_rule import half_rule
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.metrics.performance import Performance, StepMetrics, performance
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
-from simc_core.reduction import Reduction
+from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.records import Reduction
+from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import Margins, margins
-from simc_core.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, TimeResponse, simulate
 from simc_core.sweep import dressed
 

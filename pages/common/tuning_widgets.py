@@ -13,7 +13,7 @@ from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import FormError
 from simc_core.notation import latex, number
 from simc_core.plants.models import Model, UnstableDelay
-from simc_core.simc import tau_c_presets
+from simc_core.rules.simc import tau_c_presets
 
 STEPS_PER_DECADE = 20
 SHORTEST, LONGEST = -1, 2  # decades of tau_c/theta on the slider

@@ -4,7 +4,7 @@ import math
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
-from simc_core.reduction import Reduction, Share
+from simc_core.reduction.records import Reduction, Share
 
 # where a part went -> (words, colour, pattern): the pattern says what the colour says
 FATES = {

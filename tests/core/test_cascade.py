@@ -12,7 +12,7 @@ from simc_core import (
     performance,
     simc_cascade,
 )
-from simc_core.direct_synthesis import numerator
+from simc_core.rules.direct_synthesis import numerator
 from tests.core.pairs import PAIRS
 
 

@@ -19,8 +19,8 @@ from simc_core import (
     UnstableDelay,
     half_rule,
 )
-from simc_core.dynamics import dynamics
-from simc_core.half_rule import _at
+from simc_core.reduction.dynamics import dynamics
+from simc_core.reduction.half_rule import _at
 from tests.published import PUBLISHED, plant_of, select
 
 TIMES = st.floats(0.01, 100)

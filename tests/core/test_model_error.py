@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from simc_core import FirstOrderDelay, Plant, SeriesPid, simc
-from simc_core.half_rule import half_rule
-from simc_core.model_error import model_error
 from simc_core.plants.step_response import plant_step
+from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.model_error import model_error
 
 
 def test_a_perfect_model_has_no_error():

@@ -23,7 +23,7 @@ from simc_core import (
     simc,
     tau_c_presets,
 )
-from simc_core.simc import unstable_factor
+from simc_core.rules.simc import unstable_factor
 from tests.published import PUBLISHED, select
 
 TIMES = st.floats(0.01, 100)

@@ -9,10 +9,10 @@ import pytest
 from simc_core import Loop, Plant, SeriesPid, figures, frequency_response, simc
 from simc_core.figures.curves import bode_curve
 from simc_core.figures.nyquist import mt_circle
-from simc_core.half_rule import half_rule
 from simc_core.loops.frequency_grid import omega_grid
-from simc_core.model_error import model_error
 from simc_core.plants.step_response import plant_step
+from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.model_error import model_error
 from simc_core.sensitivity.margins import crossings, margins
 from simc_core.simulation import Scenario, simulate
 

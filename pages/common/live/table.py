@@ -17,7 +17,7 @@ from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import Loop
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
-from simc_core.simc import simc, tau_c_presets
+from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
 from simc_core.simulation.horizon import settling_horizon
 from simc_core.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from simc_core.zeros import Lag, Line, Match, Removal, no_lag
+from simc_core.reduction.zeros import Lag, Line, Match, Removal, no_lag
 
 NO_LAG = -2  # a zero that met no lag but the delay
 

@@ -2,7 +2,6 @@
 
 import math
 
-from simc_core.dynamics import Dynamics
 from simc_core.notation import latex, latex_number, number, times_s
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
@@ -12,9 +11,10 @@ from simc_core.plants.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
-from simc_core.reduction import LARGEST_MS, Candidate, Share, Step
-from simc_core.split import Outcome
-from simc_core.zeros import Match
+from simc_core.reduction.dynamics import Dynamics
+from simc_core.reduction.records import LARGEST_MS, Candidate, Share, Step
+from simc_core.reduction.split import Outcome
+from simc_core.reduction.zeros import Match
 
 NAMES = {"tau1": r"\tau_1", "tau2": r"\tau_2"}
 WHERE = {

@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from simc_core.dynamics import Dynamics
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,
@@ -17,7 +16,8 @@ from simc_core.plants.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
-from simc_core.zeros import Lag, Line, Removal
+from simc_core.reduction.dynamics import Dynamics
+from simc_core.reduction.zeros import Lag, Line, Removal
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,18 +23,18 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from simc_core import checks
-from simc_core.dynamics import Dynamics, dynamics
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.plants.models import IntegratingDelay, Model, SecondOrderDelay
 from simc_core.plants.plant import Plant
-from simc_core.reduction import LARGEST_MS, Candidate, Reduction
+from simc_core.reduction.dynamics import Dynamics, dynamics
+from simc_core.reduction.explanation import budget, notes, steps
+from simc_core.reduction.records import LARGEST_MS, Candidate, Reduction
+from simc_core.reduction.split import Outcome, delay_of, model_of, resolved, shape_of
+from simc_core.reduction.zeros import Lag, Line, Walk, remove_leads
+from simc_core.reduction.zeros_1998 import remove_leads_1998
+from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
-from simc_core.simc import simc
-from simc_core.split import Outcome, delay_of, model_of, resolved, shape_of
-from simc_core.story import budget, notes, steps
-from simc_core.zeros import Lag, Line, Walk, remove_leads
-from simc_core.zeros_1998 import remove_leads_1998
 
 RULES = ("2003", "1998")
 MOST_PROBES = 400  # of theta; median 18 for two zeros, 100 for six, 240 for a dozen. Beyond this some may be missed

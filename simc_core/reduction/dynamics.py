@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from simc_core.errors import NotReducible
 from simc_core.notation import latex_number, number, times_s
 from simc_core.plants.plant import Plant
-from simc_core.reduction import Share, Step
+from simc_core.reduction.records import Share, Step
 
 OSCILLATING = 0.7  # damping below which a pair is not two lags any more
 SAME = 1e-9  # relative; a zero and a lag this close are one factor typed twice

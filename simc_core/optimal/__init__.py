@@ -1,0 +1,1 @@
+"""Searches for the best or the fastest controller under a limit."""

@@ -1,0 +1,1 @@
+"""Tuning rules: one pure function a rule, beside its source."""
