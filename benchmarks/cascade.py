@@ -12,7 +12,7 @@ import numpy as np
 
 from benchmarks.recompute import FREQUENCIES, POINTS, forgotten, keep, median_times, peer, pin
 from simc_core import CascadeLoop, Loop, Scenario, frequency_response, margins, performance, simulate, stability
-from simc_core.cascade_examples import ROWS, designed
+from simc_core.cascade.pairs import ROWS, designed
 from simc_core.simulation.simulate_nested import horizon
 
 ORDER = 10

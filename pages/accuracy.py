@@ -4,7 +4,7 @@ import streamlit as st
 
 from pages.common import header
 from pages.common.accuracy_view import groups, summary
-from simc_core.references import check_all
+from simc_core.published.checks import check_all
 
 header.show("accuracy")
 st.markdown("#### See for yourself")

@@ -1,6 +1,6 @@
 """SIMC tuning of PI/PID controllers, with exact dead time. See README for a ten-line example."""
 
-from simc_core.cascade_design import CascadeDesign, simc_cascade, synthesis_cascade
+from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_cascade
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.certificate.verdict import Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
@@ -26,4 +26,4 @@ from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import Margins, crossings, margins, margins_many, margins_of
 from simc_core.sensitivity.nested_margins import NestedStability
 from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
-from simc_core.sweep import Sweep, sweep
+from simc_core.studies.sweep import Sweep, sweep

@@ -7,7 +7,7 @@ import streamlit as st
 
 from pages.common import readout
 from pages.common.symbols import symbols
-from simc_core.references import GROUPS, Check
+from simc_core.published.checks import GROUPS, Check
 
 WHY = {
     "Time responses": "y at one instant. The high-precision values expand the loop in powers of $e^{-\\theta s}$ and "

@@ -9,10 +9,10 @@ from pages.common import guards, readout, state
 from pages.common.design import Actuator
 from pages.common.panels import show
 from pages.common.study import Study
-from simc_core.as_built import AsBuilt, BuiltNumbers, as_built
 from simc_core.checks import LARGEST_GAIN, LONGEST_TIME
 from simc_core.figures import built_input_figure, built_output_figure, palette
 from simc_core.notation import number
+from simc_core.studies.with_actuator import AsBuilt, BuiltNumbers, as_built
 
 VIEW = "Actuator"
 HEIGHT = 330  # px

@@ -4,7 +4,7 @@ import streamlit as st
 
 from pages.common.cascade_widgets import METHOD_NAMES
 from pages.common.symbols import symbols
-from simc_core.cascade_examples import Judged, judged_pairs
+from simc_core.cascade.pairs import Judged, judged_pairs
 from simc_core.notation import number, plain
 
 SETTINGS = ("k", "ki", "kd")

@@ -6,7 +6,7 @@ import streamlit as st
 
 from pages.common.cascade_study import CascadeStudy, gain_in_IAE, speed_symbol
 from pages.common.readout import DIGITS, STYLE, Reading, band_of, cell_html, hover, reading
-from simc_core.cascade_design import SEPARATE
+from simc_core.cascade.design import SEPARATE
 from simc_core.figures import palette
 from simc_core.notation import number
 from simc_core.sensitivity.margins import Margins

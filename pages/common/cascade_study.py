@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from pages.common.design import Cascade
-from simc_core.cascade_design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
-from simc_core.cascade_examples import PairRow
+from simc_core.cascade.design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
+from simc_core.cascade.pairs import PairRow
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import IController
 from simc_core.errors import SimcError

@@ -9,8 +9,8 @@ from pages.common.cascade_study import USUAL_MS, CascadeStudy, of_row, scale, sp
 from pages.common.design import FORMS, HIGHEST_N, KINDS, LOWEST_N, METHODS, Cascade
 from pages.common.plant_entry import plant_entry
 from pages.common.tuning_widgets import has_form, nearest
-from simc_core.cascade_design import HIGHEST_MS, LOWEST_MS
-from simc_core.cascade_examples import ROWS, PairRow
+from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
+from simc_core.cascade.pairs import ROWS, PairRow
 from simc_core.checks import LONGEST_TIME
 from simc_core.notation import number
 

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass, field
 
 from simc_core import Plant, Scenario, checks
-from simc_core.cascade_design import HIGHEST_MS, LOWEST_MS
+from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.errors import InvalidParameter
 
 FORMS = ("series", "ideal", "parallel")

@@ -7,10 +7,10 @@ import streamlit as st
 
 from pages.common.study import Study
 from pages.common.symbols import sentence, symbols
-from simc_core.advice import advice
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.errors import NotReducible, SimcError
 from simc_core.notation import number
+from simc_core.studies.advice import advice
 
 STYLE = """<style>
 .st-key-guards [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}

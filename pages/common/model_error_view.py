@@ -12,8 +12,8 @@ from simc_core.figures.robustness import band_figure, bundle_figure
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import Loop
 from simc_core.notation import number
-from simc_core.robustness import Robustness, robustness
 from simc_core.simulation import Scenario, TimeResponse, simulate
+from simc_core.studies.plant_family import Robustness, robustness
 
 HEIGHT = 420  # px
 

@@ -18,7 +18,7 @@ from simc_core.reduction.records import Reduction
 from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import Margins, margins
 from simc_core.simulation import Scenario, TimeResponse, simulate
-from simc_core.sweep import dressed
+from simc_core.studies.sweep import dressed
 
 UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
 

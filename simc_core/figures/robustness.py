@@ -7,8 +7,8 @@ import numpy as np
 from simc_core.figures import palette
 from simc_core.figures.nyquist import VIEW_X, VIEW_Y, circle, critical_point
 from simc_core.figures.palette import Figure, Trace
-from simc_core.robustness import Robustness
 from simc_core.simulation import TimeResponse
+from simc_core.studies.plant_family import Robustness
 
 FAR = (-4.0, 6.0)  # of y: what grows beyond stays outside the picture
 

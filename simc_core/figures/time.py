@@ -8,11 +8,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from simc_core.as_built import AsBuilt
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.plants.step_response import PlantStep
 from simc_core.simulation import NestedResponse, TimeResponse
+from simc_core.studies.with_actuator import AsBuilt
 
 NestedCurves = Sequence[tuple[str, NestedResponse]]
 Curves = Sequence[tuple[str, TimeResponse]] | NestedCurves

@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from simc_core import Loop, Plant, margins
-from simc_core.cascade_design import simc_cascade
+from simc_core.cascade.design import simc_cascade
 from simc_core.loops.frequency_grid import omega_grid
 from tests.browser.test_live import at_rest, live
 from tests.browser.tools import ROOT, idle, picture

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from simc_core.tau_table import first_rows, stencil
+from simc_core.studies.tau_table import first_rows, stencil
 from tests.browser.tools import PATIENCE, ROOT, Server, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"  # [V06] example 1

@@ -20,7 +20,7 @@ from simc_core import (
     half_rule,
     simc,
 )
-from simc_core.advice import advice, deceptive_PM, derivative_noise, large_Ms, order_two, slow_oscillation
+from simc_core.studies.advice import advice, deceptive_PM, derivative_noise, large_Ms, order_two, slow_oscillation
 
 
 def quantities(*arguments, **named):

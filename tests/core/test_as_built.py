@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from simc_core import Loop, Plant, Scenario, SeriesPid
-from simc_core.as_built import as_built
+from simc_core.studies.with_actuator import as_built
 
 DEAF = Loop(Plant(1e-9, 1.0, (8.0,)), SeriesPid(2.0, 4.0))  # y stays 0: v = Kc r (1 + t/tau_I) until it saturates
 USUAL = Loop(Plant(1.0, 1.0, (8.0,)), SeriesPid(4.0, 8.0))

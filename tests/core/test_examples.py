@@ -5,7 +5,7 @@ import cmath
 import pytest
 
 from simc_core import half_rule, simc
-from simc_core.cascade_examples import PAIRS
+from simc_core.cascade.pairs import PAIRS
 from simc_core.plants.examples import EXAMPLES
 from tests.published import PUBLISHED, plant_of
 

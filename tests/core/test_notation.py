@@ -18,7 +18,7 @@ from simc_core import (
     UnstableDelay,
     parse_plant,
 )
-from simc_core.cascade_examples import PAIRS as CASCADES
+from simc_core.cascade.pairs import PAIRS as CASCADES
 from simc_core.notation import latex, latex_number, number, plain
 from simc_core.plants.examples import EXAMPLES
 

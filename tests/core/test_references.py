@@ -7,8 +7,8 @@ import mpmath as mp
 import pytest
 
 from simc_core import NotStable
-from simc_core.reference_values import MARGIN_CASES, STEP_METRICS, TIME_CASES
-from simc_core.references import GROUPS, REFERENCES, check, check_all
+from simc_core.published.checks import GROUPS, REFERENCES, check, check_all
+from simc_core.published.values import MARGIN_CASES, STEP_METRICS, TIME_CASES
 from tests.core.delay_expansion import by_contour, by_series, crossing_margins, delayed_integrator_metrics, peak_of_S
 
 LOOPS = {

@@ -9,8 +9,8 @@ from simc_core import Loop, Plant, simc
 from simc_core.certificate.verdict import stability
 from simc_core.errors import InvalidParameter
 from simc_core.plants.models import FirstOrderDelay
-from simc_core.robustness import changed, robustness
 from simc_core.sensitivity.margins import margins
+from simc_core.studies.plant_family import changed, robustness
 
 LOOP = Loop(Plant(2.0, 1.0, (5.0,)), simc(FirstOrderDelay(2.0, 1.0, 5.0)))  # L = e^{-s}/(2 s)
 

@@ -22,7 +22,7 @@ from simc_core import (
     sweep,
 )
 from simc_core.plants.models import DoubleIntegratingDelay, FirstOrderDelay, IntegratingDelay
-from simc_core.sweep import MARGINS
+from simc_core.studies.sweep import MARGINS
 
 OMEGA = np.geomspace(0.01, 10, 50)
 CASES = {

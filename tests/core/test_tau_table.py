@@ -9,7 +9,7 @@ from simc_core import Loop, Plant, simc
 from simc_core.errors import InvalidParameter
 from simc_core.plants.models import FirstOrderDelay
 from simc_core.sensitivity.margins import margins
-from simc_core.tau_table import MOST_ROWS, first_rows, kinks, read, refined, smallest
+from simc_core.studies.tau_table import MOST_ROWS, first_rows, kinks, read, refined, smallest
 
 
 def Ms(tau_c: float) -> float:

@@ -3,8 +3,8 @@
 import numpy as np
 
 from simc_core import Loop, Plant, Scenario, SeriesPid
-from simc_core.as_built import as_built
 from simc_core.figures import built_input_figure
+from simc_core.studies.with_actuator import as_built
 
 LOOP = Loop(Plant(1.0, 1.0, (8.0,)), SeriesPid(4.0, 8.0))
 

@@ -6,8 +6,8 @@ import pytest
 from scipy.integrate import trapezoid
 
 from simc_core import figures, frequency_response, margins, simulate
-from simc_core.cascade_design import single_loop, synthesis_cascade
-from simc_core.cascade_examples import PAIRS, ROWS
+from simc_core.cascade.design import single_loop, synthesis_cascade
+from simc_core.cascade.pairs import PAIRS, ROWS
 from simc_core.controllers.forms import ParallelPid
 from simc_core.figures import palette
 from simc_core.figures.curves import nested_bode_curve

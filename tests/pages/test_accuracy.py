@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from pages.common.accuracy_view import summary_html, table
-from simc_core.references import GROUPS, check_all
+from simc_core.published.checks import GROUPS, check_all
 
 from .tools import run_page, texts
 

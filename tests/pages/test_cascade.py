@@ -11,7 +11,7 @@ from pages.common.cascade_readout import strip_html
 from pages.common.cascade_study import attempt, of_row, study, time_responses
 from pages.common.design import Cascade
 from simc_core import Plant
-from simc_core.cascade_examples import ROWS
+from simc_core.cascade.pairs import ROWS
 
 from .tools import address, run_page, texts
 

@@ -10,8 +10,8 @@ from pages.common.cascade_study import designed, study
 from pages.common.design import Cascade
 from pages.common.live import cascade_rows, cascade_table
 from simc_core import Plant, stability
-from simc_core.cascade_examples import PAIRS
-from simc_core.tau_table import read
+from simc_core.cascade.pairs import PAIRS
+from simc_core.studies.tau_table import read
 from tests.pages.test_live_table import unpacked
 
 WORST = 2e-3  # of a curve's range: issue 5

@@ -12,7 +12,7 @@ from pages.common.live import table
 from pages.common.study import study
 from simc_core import Plant
 from simc_core.errors import SimcError
-from simc_core.tau_table import read
+from simc_core.studies.tau_table import read
 
 WORST = 2e-3  # of a curve's range: issue 5
 PLANTS, SEED = 200, 5

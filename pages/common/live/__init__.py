@@ -18,7 +18,7 @@ from pages.common.study import Study
 from simc_core.errors import InvalidParameter
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
-from simc_core.tau_table import smallest
+from simc_core.studies.tau_table import smallest
 
 __all__ = ["cascade_instrument", "instrument"]
 

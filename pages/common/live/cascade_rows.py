@@ -14,12 +14,12 @@ import numpy as np
 
 from pages.common.cascade_study import designed
 from pages.common.design import Cascade
-from simc_core.cascade_design import CascadeDesign
+from simc_core.cascade.design import CascadeDesign
 from simc_core.errors import SimcError
 from simc_core.loops.nested import CascadeLoop
 from simc_core.plants.models import Model
 from simc_core.simulation import Scenario, simulate
-from simc_core.tau_table import Rows, first_rows, kinks, refined
+from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
 
 PER_DECADE = 6
 MOST_ROWS = 80  # of one section

@@ -18,7 +18,7 @@ from pages.common.design import Cascade
 from pages.common.live.cascade_rows import PARAMETERS, Bench, Section, course, sections
 from pages.common.live.packing import figures, pack
 from pages.common.live.table import BEYOND, SHORT_OF, settings
-from simc_core.cascade_design import CascadeDesign
+from simc_core.cascade.design import CascadeDesign
 from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid

@@ -20,8 +20,8 @@ from simc_core.plants.plant import Plant
 from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
 from simc_core.simulation.horizon import settling_horizon
-from simc_core.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
-from simc_core.tau_table import Rows, first_rows, kinks, refined
+from simc_core.studies.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
+from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
 
 SHORTEST, LONGEST = 0.1, 100.0  # of tau_c over theta, on the slider
 POINTS = 300

@@ -10,7 +10,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from simc_core.cascade_design import synthesis_cascade
+from simc_core.cascade.design import synthesis_cascade
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller, IController, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
@@ -18,8 +18,7 @@ from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop
 from simc_core.metrics.performance import performance
 from simc_core.plants.plant import Plant
-from simc_core.reduction.half_rule import half_rule
-from simc_core.reference_values import (
+from simc_core.published.values import (
     DOUBLE_INTEGRATING,
     FIRST_ORDER,
     INTEGRATING,
@@ -29,6 +28,7 @@ from simc_core.reference_values import (
     TIME_CASES,
     TimeCase,
 )
+from simc_core.reduction.half_rule import half_rule
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
 from simc_core.simulation import Scenario, simulate

@@ -1,0 +1,1 @@
+"""Design of two nested loops, and the published pairs."""

@@ -1,0 +1,1 @@
+"""Published numbers, closed forms and high-precision values, beside ours."""

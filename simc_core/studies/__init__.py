@@ -1,0 +1,1 @@
+"""What a design does beyond its nominal loop: sweeps, plant families, actuators, advice."""
