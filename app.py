@@ -12,4 +12,4 @@ import streamlit as st
 # Before numpy is loaded: with many sessions, threads of the linear algebra only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-app = st.App(Path(__file__).parent / "pages" / "common" / "router.py")
+app = st.App(Path(__file__).parent / "pages" / "common" / "shell" / "router.py")

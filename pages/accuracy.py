@@ -2,8 +2,8 @@
 
 import streamlit as st
 
-from pages.common import header
-from pages.common.accuracy_view import groups, summary
+from pages.common.accuracy.view import groups, summary
+from pages.common.shell import header
 from simc_core.published.checks import check_all
 
 header.show("accuracy")

@@ -2,14 +2,19 @@
 
 import streamlit as st
 
-from pages.common import cascade_guards, cascade_widgets, guards, header, live, state
-from pages.common.cascade_diagram import diagram
-from pages.common.cascade_pairs import pairs_view
-from pages.common.cascade_panels import frequencies, panels
-from pages.common.cascade_readout import readout
-from pages.common.cascade_settings import settings
-from pages.common.cascade_study import CascadeStudy, attempt
-from pages.common.cascade_windup import windup_view
+from pages.common import live
+from pages.common.cascade import guards as cascade_guards
+from pages.common.cascade import widgets as cascade_widgets
+from pages.common.cascade.diagram import diagram
+from pages.common.cascade.pairs import pairs_view
+from pages.common.cascade.panels import frequencies, panels
+from pages.common.cascade.readout import readout
+from pages.common.cascade.settings import settings
+from pages.common.cascade.windup import windup_view
+from pages.common.parts.refusals import explain_refusal
+from pages.common.session import state
+from pages.common.shell import header
+from pages.common.studies.cascade import CascadeStudy, attempt
 
 
 def instrument(present: CascadeStudy) -> None:
@@ -43,7 +48,7 @@ with picture:
         diagram(present, form)
 with view:
     if refusal is not None:
-        with guards.spoken():
+        with explain_refusal():
             raise refusal
         cascade_guards.offer_synthesis(refusal)
     *tabs, pairs = st.tabs((*VIEWS, PAIRS), key="cascade_views", on_change="rerun")  # only the open one is made

@@ -2,12 +2,15 @@
 
 import streamlit as st
 
-from pages.common import guards, header, reduction_view, state
-from pages.common.study import study
+from pages.common.half_rule import view as reduction_view
+from pages.common.parts.refusals import explain_refusal
+from pages.common.session import state
+from pages.common.shell import header
+from pages.common.studies.single import study
 from simc_core.reduction.half_rule import half_rule
 
 header.show("half_rule")
-with guards.spoken():
+with explain_refusal():
     told, judged = st.columns(2, gap="medium")
     with told:
         reduction_view.choices()
@@ -17,5 +20,5 @@ with guards.spoken():
     with judged:
         reduction_view.budget(reduction)
         reduction_view.candidates(reduction)
-        with guards.spoken():  # a model may have no controller; its story is told all the same
+        with explain_refusal():  # a model may have no controller; its story is told all the same
             reduction_view.comparison(study(plant, tuning))

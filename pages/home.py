@@ -2,9 +2,10 @@
 
 import streamlit as st
 
-from pages.common import header, state
-from pages.common.plant_view import size
-from pages.common.symbols import symbols
+from pages.common.parts.symbols import symbols
+from pages.common.plant.view import size
+from pages.common.session import state
+from pages.common.shell import header
 from simc_core.notation import latex
 from simc_core.plants.examples import EXAMPLES
 

@@ -2,9 +2,9 @@
 
 import streamlit as st
 
-from pages.common import header
-from pages.common.plant_entry import plant_entry
-from pages.common.plant_view import facts, figures
+from pages.common.plant.entry import plant_entry
+from pages.common.plant.view import facts, figures
+from pages.common.shell import header
 
 header.show("plant")
 entry, view = st.columns([5, 8], gap="medium")

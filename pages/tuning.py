@@ -2,19 +2,23 @@
 
 import streamlit as st
 
-from pages.common import guards, header, live, state
-from pages.common.actuator_view import actuator_view, mark
-from pages.common.design_table import design_table, pin_button, pinned_studies
-from pages.common.model_error_view import model_error_view
-from pages.common.panels import open_loop, panels
-from pages.common.readout import readout
-from pages.common.study import study
-from pages.common.tuning_widgets import settings, structure, tau_c_control
+from pages.common import live
+from pages.common.parts.refusals import explain_refusal
+from pages.common.session import state
+from pages.common.shell import header
+from pages.common.studies.single import study
+from pages.common.tuning import guards
+from pages.common.tuning.actuator_view import actuator_view, mark
+from pages.common.tuning.model_error_view import model_error_view
+from pages.common.tuning.panels import open_loop, panels
+from pages.common.tuning.pinned import design_table, pin_button, pinned_studies
+from pages.common.tuning.readout import readout
+from pages.common.tuning.widgets import settings, structure, tau_c_control
 
 VIEWS = ("Live", "Figures", "Bode of L", "Model error", "Actuator", "Compare")
 
 design = header.show("tuning")
-with guards.spoken():
+with explain_refusal():
     present = study(design.plant, design.tuning)
     mark(design.actuator, "narrow")
     with st.container(key="tuning"):
@@ -33,7 +37,7 @@ with guards.spoken():
         )  # only the open one is made
         if instrument.open:
             with instrument:
-                live.instrument(design.plant, studies)
+                live.tuning_instrument(design.plant, studies)
         if figures.open:
             with figures:
                 readout(present)

@@ -64,7 +64,9 @@ def test_core_imports_one_way(path):
 @pytest.mark.parametrize("path", [ROOT / "app.py", *PAGES], ids=name)
 def test_session_and_address_are_touched_in_one_module_only(path):
     attributes = {node.attr for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Attribute)}
-    assert not {"session_state", "query_params"} & attributes or path == ROOT / "pages" / "common" / "state.py"
+    assert (
+        not {"session_state", "query_params"} & attributes or path == ROOT / "pages" / "common" / "session" / "state.py"
+    )
     assert not uses(path, "control")
 
 

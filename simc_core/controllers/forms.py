@@ -15,6 +15,7 @@ tau_D' = tau_D/f. Back only if tau_I' >= 4 tau_D': f = (1 + sqrt(1 - 4 tau_D'/ta
 
 import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from simc_core import checks
 from simc_core.algebra.factors import Factored, factors
 from simc_core.errors import FormError, InvalidParameter
 
+FORMS = ("series", "ideal", "parallel")
 DOUBLE_ROOT = 1e-12  # tau_I' = 4 tau_D' up to rounding counts as equality
 
 
@@ -42,10 +44,28 @@ def _standard_fields(controller) -> None:
     _weights(controller)
 
 
-class _Responses:
+class _Forms:
     """What all forms share, by way of the parallel one."""
 
     __slots__ = ()
+    SETTINGS: ClassVar[tuple[str, ...]]  # names of what is set in this form; filter and weights come on top
+
+    @property
+    def settings(self) -> dict[str, float]:
+        """The settings of this form by name, filter and weights apart."""
+        return {name: getattr(self, name) for name in self.SETTINGS}
+
+    def in_form(self, form: str) -> "Controller":
+        """The same controller in one of FORMS; pure integral action stays what it is. Raises FormError."""
+        return {"series": self.to_series, "ideal": self.to_ideal, "parallel": self.to_parallel}[form]()
+
+    def has_form(self, form: str) -> bool:
+        """Whether `in_form` has an answer."""
+        try:
+            self.in_form(form)
+        except FormError:
+            return False
+        return True
 
     def response(self, s) -> np.ndarray:
         """C(s) of the feedback path, from -y to u; any shape of s."""
@@ -63,9 +83,10 @@ class _Responses:
 
 
 @dataclass(frozen=True, slots=True)
-class SeriesPid(_Responses):
+class SeriesPid(_Forms):
     """Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1)/(tau_F s + 1); tau_I = math.inf: no integral action."""
 
+    SETTINGS: ClassVar[tuple[str, ...]] = ("Kc", "tau_I", "tau_D")
     Kc: float
     tau_I: float
     tau_D: float = 0.0
@@ -95,9 +116,10 @@ class SeriesPid(_Responses):
 
 
 @dataclass(frozen=True, slots=True)
-class IdealPid(_Responses):
+class IdealPid(_Forms):
     """Kc (1 + 1/(tau_I s) + tau_D s)/(tau_F s + 1); tau_I = math.inf: no integral action."""
 
+    SETTINGS: ClassVar[tuple[str, ...]] = ("Kc", "tau_I", "tau_D")
     Kc: float
     tau_I: float
     tau_D: float = 0.0
@@ -140,9 +162,10 @@ class IdealPid(_Responses):
 
 
 @dataclass(frozen=True, slots=True)
-class ParallelPid(_Responses):
+class ParallelPid(_Forms):
     """(Kp + Ki/s + Kd s)/(tau_F s + 1); not all three may be zero."""
 
+    SETTINGS: ClassVar[tuple[str, ...]] = ("Kp", "Ki", "Kd")
     Kp: float
     Ki: float
     Kd: float = 0.0
@@ -186,9 +209,10 @@ class ParallelPid(_Responses):
 
 
 @dataclass(frozen=True, slots=True)
-class IController(_Responses):
+class IController(_Forms):
     """K_I/s, the SIMC controller of pure dead time [SK03 Table 1]."""
 
+    SETTINGS: ClassVar[tuple[str, ...]] = ("K_I",)
     K_I: float
 
     def __post_init__(self):
@@ -198,6 +222,10 @@ class IController(_Responses):
     def factored(self) -> Factored:
         """Feedback path as the engine sees it."""
         return _parallel(0.0, self.K_I, 0.0, 0.0)
+
+    def in_form(self, form: str) -> "IController":
+        """Itself in every form: it has nothing but K_I."""
+        return self
 
     def to_series(self) -> SeriesPid:
         """Raises FormError: a pure integrator is the limit tau_I -> 0 of a series form, not one itself."""

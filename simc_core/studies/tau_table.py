@@ -5,7 +5,7 @@ goes across a kink, where tau_I = min(tau1, 4 (tau_c + theta)) changes branch: k
 Dead time does not depend on tau_c, so jumps of a response stay at their instants and every point of it is a smooth
 function of x, stable or not. L is read likewise; S and T follow from it exactly.
 
-pages/common/live/table.js does the same reading in the browser; tests/browser/test_live_table.py holds them together.
+pages/common/live/kit/table.js reads in the same way in the browser; tests/browser/test_live.py holds them together.
 """
 
 import math

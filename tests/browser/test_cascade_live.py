@@ -156,7 +156,9 @@ def test_touch_moves_a_slider(server, open_page):
 def test_margins_read_from_a_curve_are_those_of_the_core(server, open_page):
     """marginsOf of loops.js against simc_core.margins, on a first-order and an integrating loop."""
     page = opened(open_page, server)
-    script = "\n".join((ROOT / "pages" / "common" / "live" / name).read_text() for name in ("table.js", "loops.js"))
+    script = "\n".join(
+        (ROOT / "pages" / "common" / "live" / name).read_text() for name in ("kit/table.js", "cascade/loops.js")
+    )
     for plant, Ki in ((Plant(2, 1, (8,)), 4.0), (Plant(1, 0.3, (1,), integrators=1), 0.4)):
         loop = Loop(plant, simc_cascade(plant, Plant(1, Ki / 20, (Ki / 10,))).outer)
         omega = omega_grid([loop.L])

@@ -242,7 +242,7 @@ def test_panels_as_svg_hold_every_curve_and_the_words_on_the_axes(server, open_p
 
 def test_every_logarithmic_axis_of_the_trade_offs_has_numbers(server, open_page):
     page = opened(open_page, server, plant="2 exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))")  # IAE 12.6 to 1500: no round limit
-    script = (ROOT / "pages" / "common" / "live" / "panel.js").read_text(encoding="utf-8")
+    script = (ROOT / "pages" / "common" / "live" / "kit" / "panel.js").read_text(encoding="utf-8")
     got = page.evaluate(f"([low, high]) => {{ {script}; return logTicks(low, high); }}", [12.6, 1500])
     assert got == [*range(20, 100, 10), *range(100, 1000, 100), 1000]
     expect(page.locator(".settings sub")).to_have_text(["c", "I", "D"])
@@ -251,7 +251,7 @@ def test_every_logarithmic_axis_of_the_trade_offs_has_numbers(server, open_page)
 def test_the_browser_reads_the_table_as_python_does(server, open_page):
     """stencil() of table.js against simc_core.tau_table.stencil, kinks included."""
     page = opened(open_page, server)
-    script = (ROOT / "pages" / "common" / "live" / "table.js").read_text(encoding="utf-8")
+    script = (ROOT / "pages" / "common" / "live" / "kit" / "table.js").read_text(encoding="utf-8")
     rows = first_rows(0.1, 100.0, [1.7, 30.0])
     for x in np.linspace(rows.x[0], rows.x[-1], 301):
         first, weights = stencil(rows, x)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from pages.common.project import load
+from pages.common.session.project import load
 from simc_core import Plant
 from tests.browser.tools import THEMES, WIDTHS, fits, idle, picture
 

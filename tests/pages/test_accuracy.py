@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from pages.common.accuracy_view import summary_html, table
+from pages.common.accuracy.view import summary_html, table
 from simc_core.published.checks import GROUPS, check_all
 
 from .tools import run_page, texts

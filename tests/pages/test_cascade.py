@@ -7,9 +7,9 @@ import re
 import numpy as np
 import pytest
 
-from pages.common.cascade_readout import strip_html
-from pages.common.cascade_study import attempt, of_row, study, time_responses
-from pages.common.design import Cascade
+from pages.common.cascade.readout import strip_html
+from pages.common.session.design import Cascade
+from pages.common.studies.cascade import attempt, of_row, study, time_responses
 from simc_core import Plant
 from simc_core.cascade.pairs import ROWS
 

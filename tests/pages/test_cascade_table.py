@@ -6,9 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pages.common.cascade_study import designed, study
-from pages.common.design import Cascade
-from pages.common.live import cascade_rows, cascade_table
+from pages.common.live.cascade import rows as cascade_rows
+from pages.common.live.cascade import table as cascade_table
+from pages.common.session.design import Cascade
+from pages.common.studies.cascade import designed, study
 from simc_core import Plant, stability
 from simc_core.cascade.pairs import PAIRS
 from simc_core.studies.tau_table import read

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pages.common import entries
+from pages.common.plant import rows as entries
 from simc_core import Plant
 from simc_core.errors import InvalidParameter
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from streamlit.testing.v1 import AppTest
 
-from pages.common import project
-from pages.common.design import Design, Tuning
+from pages.common.session import project
+from pages.common.session.design import Design, Tuning
 from simc_core import Plant
 from simc_core.plants.examples import EXAMPLES
 from tests.pages.tools import address, run_app, run_page, texts
@@ -33,7 +33,7 @@ def test_home_offers_every_example_and_takes_one():
 
 def test_the_chain_is_there_to_click_and_marks_the_present_place():
     app = run_app()
-    app.switch_page("../half_rule.py").run()
+    app.switch_page("../../half_rule.py").run()
     assert "**:blue[Half rule]**" in texts(app)
 
 
@@ -124,7 +124,7 @@ def test_state_survives_the_way_through_the_pages():
     app = run_app(plant="2 exp(-s)/(10 s + 1)", tau_c="3", b="0.5")
     for name in PLACES[1:]:
         app.query_params.clear()  # as the navigation does
-        app.switch_page(f"../{name}.py").run()
+        app.switch_page(f"../../{name}.py").run()
         assert not app.exception
         assert address(app) == {"plant": "2 exp(-s)/(10 s + 1)", "order": "1", "tau_c": "3", "b": "0.5"}
 

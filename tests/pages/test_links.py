@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pages.common import links, project
-from pages.common.design import Actuator, Cascade, Design, Tuning
+from pages.common.session import links, project
+from pages.common.session.design import Actuator, Cascade, Design, Tuning
 from simc_core import Plant
 
 times = st.floats(1e-3, 1e3)

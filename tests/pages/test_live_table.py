@@ -7,9 +7,9 @@ import struct
 import numpy as np
 import pytest
 
-from pages.common.design import Tuning
-from pages.common.live import table
-from pages.common.study import study
+from pages.common.live.tuning import table
+from pages.common.session.design import Tuning
+from pages.common.studies.single import study
 from simc_core import Plant
 from simc_core.errors import SimcError
 from simc_core.studies.tau_table import read

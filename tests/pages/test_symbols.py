@@ -2,7 +2,7 @@
 
 import pytest
 
-from pages.common.symbols import sentence, symbols
+from pages.common.parts.symbols import sentence, symbols
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,10 @@ import re
 
 import pytest
 
-from pages.common.design import Tuning
-from pages.common.readout import band_of, strip_html
-from pages.common.study import study
+from pages.common.parts.strip import band_of
+from pages.common.session.design import Tuning
+from pages.common.studies.single import study
+from pages.common.tuning.readout import strip_html
 from simc_core import parse_plant
 
 from .tools import address, run_page, texts

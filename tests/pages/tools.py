@@ -9,7 +9,7 @@ ROOT = Path(__file__).parents[2]
 
 def run_app(**parameters: str) -> AppTest:
     """The whole app, from its router, with query parameters."""
-    return _run(ROOT / "pages" / "common" / "router.py", parameters)
+    return _run(ROOT / "pages" / "common" / "shell" / "router.py", parameters)
 
 
 def run_page(name: str, view: str = "", tabs: str = "views", **parameters: str) -> AppTest:

@@ -6,8 +6,8 @@ from pathlib import Path
 import streamlit as st
 
 HERE = Path(__file__).parent
-SHARED = ("uplot.min.js", "format.js", "table.js", "panel.js", "curves.js", "slider.js", "strip.js", "svg.js")
-SHARED = (*SHARED, "picture.js", "instrument.js", "letters.js", "mount.js")
+KIT = ("format", "table", "panel", "curves", "slider", "strip", "svg", "picture", "instrument", "letters", "mount")
+SHARED = ("vendor/uplot.min.js", *(f"kit/{name}.js" for name in KIT))
 
 
 def _text(*names: str) -> str:
@@ -15,14 +15,15 @@ def _text(*names: str) -> str:
 
 
 def _instrument(name: str, *own: str):
-    html, css = _text("live.html"), _text("uplot.min.css", "live.css")
-    return st.components.v2.component(f"simc_live_{name}", html=html, css=css, js=_text(*SHARED, *own))
+    html, css = _text("kit/live.html"), _text("vendor/uplot.min.css", "kit/live.css")
+    js = _text(*SHARED, *(f"{name}/{part}.js" for part in own))
+    return st.components.v2.component(f"simc_live_{name}", html=html, css=css, js=js)
 
 
-tuning = _instrument("tuning", "tuning_panels.js", "tradeoff.js", "tuning.js", "tuning_main.js")
-cascade = _instrument("cascade", "loops.js", "cascade_panels.js", "cascade.js", "cascade_main.js")
+tuning = _instrument("tuning", "panels", "tradeoff", "tuning", "main")
+cascade = _instrument("cascade", "loops", "panels", "cascade", "main")
 message = st.components.v2.component(
-    "simc_live_message", html="<span></span>", js=_text("table.js", "letters.js", "message.js")
+    "simc_live_message", html="<span></span>", js=_text("kit/table.js", "kit/letters.js", "kit/message.js")
 )
 
 

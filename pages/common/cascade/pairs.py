@@ -1,0 +1,74 @@
+"""The paper's ten pairs, designed now, beside what is printed."""
+
+import streamlit as st
+
+from pages.common.cascade.widgets import METHOD_NAMES
+from pages.common.parts.symbols import symbols
+from simc_core.cascade.pairs import Judged, judged_pairs
+from simc_core.notation import number, plain
+
+SETTINGS = ("k", "ki", "kd")
+
+
+def pairs_view() -> None:
+    """Two tables, peaks with IAE and settings, and the reason for every difference."""
+    with st.spinner("Designing and judging all pairs"):
+        found = judged_pairs()
+    st.markdown(
+        "All pairs of [PSB], designed and judged now on the exact cascade. In brackets the printed number and how far "
+        "ours is from it; without brackets, nothing is printed that we could compare with."
+    )
+    st.dataframe([indices(each) for each in found], hide_index=True, width="stretch", height="content", key="indices")
+    st.markdown("\n".join(f"- **{names}**: {symbols(note)}" for note, names in notes(found).items()))
+    st.markdown("**Settings**, parallel form $k + k_i/s + k_d s$")
+    st.dataframe([settings(each) for each in found], hide_index=True, width="stretch", height="content", key="settings")
+    st.caption(
+        "[PSB] Prelić, Šekara, Bošković, cascade control by direct synthesis under constraints on robustness. "
+        "Printed digits of Msa are those of the constraint."
+    )
+
+
+def notes(found: tuple[Judged, ...]) -> dict[str, str]:
+    """Why rows differ from the paper, or what they show, and the names of the rows it is said of."""
+    gathered: dict[str, list[str]] = {}
+    for each in found:
+        gathered.setdefault(each.row.note, []).append(each.row.name)
+    return {note: ", ".join(names) for note, names in gathered.items() if note}
+
+
+def indices(each: Judged) -> dict[str, str]:
+    """Peaks and IAE of a row."""
+    printed = each.row.published
+    return {
+        "pair": each.row.name,
+        "Msa": beside(each.outer.Ms, printed and printed.Msa),
+        "Msb": beside(each.inner.Ms, printed and printed.Msb),
+        "Mpa": beside(each.outer.Mt, printed and printed.Mpa),
+        "IAE d₁": beside(each.performance.disturbance.IAE, printed and printed.IAE_d1),
+        "IAE d₂": beside(each.performance.disturbance2.IAE, printed and printed.IAE_d2),
+        "Ga": plain(each.row.blocks[0]),
+        "Gb": plain(each.row.blocks[1]),
+    }
+
+
+def settings(each: Judged) -> dict[str, str]:
+    """Settings of both controllers of a row."""
+    printed, row = each.row.published, {"pair": each.row.name, "method": METHOD_NAMES[each.row.method]}
+    for index, controller, values in (
+        ("a", each.design.outer, printed and printed.outer),
+        ("b", each.design.inner, printed and printed.inner),
+    ):
+        form = controller.to_parallel()
+        for i, (name, value) in enumerate(zip(SETTINGS, (form.Kp, form.Ki, form.Kd), strict=True)):
+            row[f"{name} {index}"] = beside(value, values and values[i])
+    return row
+
+
+def beside(ours: float, printed: float | None) -> str:
+    """Ours, and in brackets what is printed with the difference in per cent."""
+    if printed is None:
+        return number(ours)
+    if printed == 0:
+        return number(ours) + (" (0)" if ours == 0 else " (printed 0)")
+    per_cent = round(100 * (ours / printed - 1), 1) or 0.0  # not -0.0
+    return f"{number(ours)} ({number(printed)}, {per_cent:+.1f} %)".replace("-", "−")

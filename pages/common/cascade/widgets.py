@@ -1,0 +1,243 @@
+"""What the user decides on the cascade page. Each function shows its widgets; the design in `state` is the result."""
+
+from dataclasses import replace
+
+import streamlit as st
+
+from pages.common.parts.scales import nearest
+from pages.common.plant.entry import plant_entry
+from pages.common.session import state
+from pages.common.session.design import HIGHEST_N, KINDS, LOWEST_N, METHODS, Cascade
+from pages.common.studies.cascade import USUAL_MS, CascadeStudy, of_row, scale, speed_symbol
+from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
+from simc_core.cascade.pairs import ROWS, PairRow
+from simc_core.checks import LONGEST_TIME
+from simc_core.controllers.forms import FORMS
+from simc_core.notation import number
+
+BLOCKS = (("Ga", "$G_a$ primary", "primary block Ga"), ("Gb", "$G_b$ secondary", "secondary block Gb"))
+METHOD_NAMES = {"simc": "SIMC", "synthesis": "Synthesis"}
+LOOPS = {"outer": "Outer loop", "inner": "Inner loop"}
+SPEEDS = [10 ** (i / 20) for i in range(-40, 21)]  # of a slider, in units of the loop's own times
+PEAKS = [1.05 + 0.05 * i for i in range(80)]
+STYLE = """<style>
+.st-key-cascade [data-testid="stVerticalBlock"] {gap: 0.6rem}
+:is(.st-key-loop_outer, .st-key-loop_inner) [data-testid="stButtonGroup"] button {padding: 0 0.45rem; min-width: 0}
+@media (max-width: 640px) { /* what moves comes first, what is set once below it */
+  .st-key-cascade [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
+}
+</style>"""
+
+
+def blocks() -> None:
+    """Ga and Gb, each folded away; or a design of the paper."""
+    st.html(STYLE)
+    with st.container(horizontal=True, gap="xsmall", key="blocks"):
+        for name, label, title in BLOCKS:
+            with st.popover(label, help=f"Enter the {title}"):
+                plant_entry(name, title)
+                st.button(
+                    "Take $G$ of the other pages",
+                    key=f"take_{name}",
+                    on_click=state.change,
+                    kwargs={name: state.plant()},
+                )
+    titles = {_title(row): of_row(row) for row in ROWS}
+    here = next((title for title, cascade in titles.items() if cascade == state.cascade()), None)
+    state.set_widget("pair", here)
+    st.selectbox(
+        "From the literature [PSB]",
+        list(titles),
+        key="pair",
+        placeholder="The paper's ten pairs",
+        label_visibility="collapsed",
+        help="The ten process pairs of Prelić, Šekara and Bošković, with the designs they print; PI or PID "
+        "outside, Ms inside · outside.",
+        on_change=_take_pair,
+    )
+
+
+def method() -> None:
+    """SIMC or direct synthesis, and the set-point weight of the outer controller."""
+    state.set_widget("method", state.value("method"))
+    with st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall", key="method_row"):
+        st.segmented_control(
+            "Method",
+            METHODS,
+            format_func=METHOD_NAMES.get,
+            key="method",
+            on_change=_take_method,
+            help="SIMC: half rule and $\\tau_c$, inner loop first, then the outer one on what it sees [SK03]. Direct "
+            "synthesis: a Maclaurin expansion of the controller that gives a wanted response, for integrating and "
+            "unstable blocks too [PSB].",
+        )
+        st.number_input(
+            "$b$",
+            0.0,
+            2.0,
+            step=0.1,
+            width=58,
+            format="%.3g",
+            help="Set-point weight of the outer controller: its proportional action sees $b\\,r - y_1$. Less than 1 "
+            "softens set-point steps; stability and the response to $d_1$, $d_2$ stay as they are.",
+            **state.bound("b_outer"),
+        )
+
+
+def loops(study: CascadeStudy | None, slider: bool = True) -> None:
+    """PI or PID, and tau_c (lambda) or Ms, of both loops. slider=False: where a live instrument has them."""
+    for loop in LOOPS:
+        with st.container(key=f"loop_{loop}", gap="xsmall"):
+            _loop(loop, study, slider)
+
+
+def form(study: CascadeStudy | None) -> str:
+    """The form in which the diagram shows settings; says which controller has none in it."""
+    st.segmented_control("Settings in the diagram", FORMS, **state.bound("form"))
+    chosen = state.value("form")
+    for name, controller in (("a", study.loop.outer), ("b", study.loop.inner)) if study else ():
+        if not controller.has_form(chosen):
+            st.caption(f"$C_{name}$ has no {chosen} form: shown in the parallel one.")
+    return chosen
+
+
+def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
+    cascade = state.cascade()
+    asked = _asked(cascade, loop)
+    filtered = cascade.method == "synthesis" and getattr(cascade, loop) == "PID"
+    with st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall"):
+        st.segmented_control(LOOPS[loop], KINDS, **state.bound(loop))
+        key = f"{loop}_by"
+        state.set_widget(key, asked)
+        st.segmented_control(
+            "set by",
+            ("auto", "tau_c", "Ms"),
+            format_func={"auto": "auto", "tau_c": f"${speed_symbol(cascade)}$", "Ms": "$M_s$"}.get,
+            key=key,
+            on_change=_take_asked,
+            args=(loop, key, study),
+            help=_meaning(cascade),
+        )
+        if filtered:
+            _filter(loop)
+    if asked != "auto":
+        _knob(loop, asked, study, slider)
+    if study is not None:
+        st.caption(_outcome(loop, asked, study))
+    if filtered and loop == "outer":
+        _cancel()
+
+
+def _meaning(cascade: Cascade) -> str:
+    if cascade.method == "simc":
+        return "auto: $\\tau_c = \\theta$ of the reduced model, tight. $M_s$: the smallest $\\tau_c$ with that peak."
+    return f"auto: $M_s$ = {USUAL_MS:g}. $M_s$: the smallest $\\lambda$ with a stable loop and that peak."
+
+
+def _outcome(loop: str, asked: str, study: CascadeStudy) -> str:
+    """What the choice comes to."""
+    speed = f"${speed_symbol(study.cascade)}$ = {number(study.speeds[loop == 'outer'])}"
+    if not study.sound:
+        return speed
+    peak = f"$M_s$ = {number(getattr(study, loop).Ms)}"
+    by_peak = asked == "Ms" or (asked == "auto" and study.cascade.method == "synthesis")
+    return f"{peak} needs {speed}" if by_peak else f"{speed} gives {peak}"
+
+
+def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> None:
+    """Slider and exact number for what is asked of the loop."""
+    name = f"{asked}_{loop}"
+    unit = scale(state.cascade(), loop) if asked == "tau_c" else 1.0
+    stops = SPEEDS if asked == "tau_c" else PEAKS
+    low, high = (1 / LONGEST_TIME, LONGEST_TIME) if asked == "tau_c" else (LOWEST_MS, HIGHEST_MS)
+    symbol = speed_symbol(state.cascade()) if asked == "tau_c" else "M_s"
+    place = st.container()
+    if slider:
+        slide, place = st.columns([5, 3], vertical_alignment="bottom", gap="small")
+        slide.select_slider(
+            f"${symbol}$ of the {loop} loop",
+            stops,
+            format_func=lambda stop: number(stop * unit, 3),
+            label_visibility="collapsed",
+            **state.bound(
+                name,
+                show=lambda value: nearest(stops, value / unit),
+                read=lambda stop: stop * unit,
+                key=f"{name}_slider",
+            ),
+        )
+    place.number_input(
+        f"${symbol}$ of the {loop} loop, exactly",
+        min_value=low,
+        max_value=high,
+        step=None,
+        format="%.6g",
+        label_visibility="collapsed",
+        **state.bound(name, show=float, key=f"{name}_exact"),
+    )
+
+
+def _filter(loop: str) -> None:
+    """tau_F of a PID by direct synthesis: lambda/N, or outside what cancels the inner zero."""
+    if loop == "inner" or state.value("filter_outer") == "N":
+        st.number_input(
+            "$N$",
+            LOWEST_N,
+            HIGHEST_N,
+            step=None,
+            format="%.4g",
+            width=56,
+            help=f"Derivative filter of the {loop} loop: $\\tau_F = \\lambda/N$.",
+            **state.bound(f"N_{loop}"),
+        )
+
+
+def _cancel() -> None:
+    st.checkbox(
+        "$\\tau_F$ cancels the inner zero",
+        help="$\\tau_F = \\eta_1$ of the inner loop in place of $\\lambda/N$; for $K_d \\leq 0$ [PSB].",
+        **state.bound(
+            "filter_outer",
+            show=lambda value: value == "zero",
+            read=lambda checked: "zero" if checked else "N",
+        ),
+    )
+
+
+def _asked(cascade: Cascade, loop: str) -> str:
+    if getattr(cascade, f"tau_c_{loop}") is not None:
+        return "tau_c"
+    return "auto" if getattr(cascade, f"Ms_{loop}") is None else "Ms"
+
+
+def _take_asked(loop: str, key: str, study: CascadeStudy | None) -> None:
+    """Begin with what the loop has now."""
+    asked, cascade = state.widget(key), state.cascade()
+    if asked is None:
+        return
+    speed, peak = scale(cascade, loop), USUAL_MS
+    if study is not None:
+        speed = study.speeds[loop == "outer"]
+        peak = min(max(getattr(study, loop).Ms, LOWEST_MS), HIGHEST_MS) if study.sound else USUAL_MS
+    state.change(
+        **{f"tau_c_{loop}": speed if asked == "tau_c" else None, f"Ms_{loop}": peak if asked == "Ms" else None}
+    )
+
+
+def _take_method() -> None:
+    """A lambda is not a tau_c: what was given as one does not stay as the other."""
+    chosen = state.widget("method")
+    if chosen is not None and chosen != state.value("method"):
+        state.change(method=chosen, tau_c_inner=None, tau_c_outer=None)
+
+
+def _take_pair() -> None:
+    chosen = next((row for row in ROWS if _title(row) == state.widget("pair")), None)
+    if chosen is not None:
+        state.replace_design(replace(state.design_now(), cascade=of_row(chosen)))
+
+
+def _title(row: PairRow) -> str:
+    if row.method == "simc":
+        return f"Pair {row.pair}, SIMC"
+    return f"Pair {row.name}, {row.outer}, Ms {row.Ms_inner:g} · {row.Ms_outer:g}"

@@ -1,0 +1,72 @@
+"""Windup between the loops: what a limited actuator does to a cascade, with and without protection."""
+
+from functools import lru_cache
+
+import numpy as np
+import streamlit as st
+
+from pages.common.parts.panel import show
+from pages.common.studies.cascade import CascadeStudy, starts, time_responses
+from simc_core.figures import inner_setpoint_figure, input_figure, output_figure
+from simc_core.loops.nested import CascadeLoop
+from simc_core.notation import number
+from simc_core.simulation import NestedResponse
+from simc_core.simulation.nested_windup import limited
+
+HEIGHT = 300  # px
+KEPT = 8
+NAMES = {"both": "both protected", "inner": "inner only", "none": "no protection"}
+SHARE = 0.4  # of what u asks for beyond its final value: limits that bite, for a start
+EXPLAINED = (
+    "While u is at a limit the inner loop cannot follow, and both controllers go on integrating an error that nothing "
+    "answers. Back calculation stops the inner one; the outer one stops too, and takes over without a bump, when it is "
+    "led back to the set point that the inner loop could have followed, $r_2 + e/K_b$, $e$ what the limit takes away."
+)
+
+
+def windup_view(study: CascadeStudy) -> None:
+    """Limits on u to choose; y1, u and r2 after a set-point step for the three protections."""
+    st.markdown(EXPLAINED)
+    if not study.sound:
+        st.info("This is shown for sound cascades: mend the loops first.")
+        return
+    lowest, highest = usual_limits(study)
+    low, high, _ = st.columns([1, 1, 3], vertical_alignment="bottom")
+    u_min = low.number_input(
+        "$u_{min}$ ≤ 0", max_value=0.0, value=None, step=None, placeholder=number(lowest, 2), key="u_min"
+    )
+    u_max = high.number_input(
+        "$u_{max}$ ≥ 0", min_value=0.0, value=None, step=None, placeholder=number(highest, 2), key="u_max"
+    )
+    limits = lowest if u_min is None else u_min, highest if u_max is None else u_max
+    with st.spinner("Simulating three ways"):
+        curves = family(study.loop, *limits, t_end=starts(time_responses(study)[0][1])[0])
+    show(output_figure(curves, HEIGHT), "windup_y", "Output y1 with a limited u, three protections")
+    left, right = st.columns(2, gap="small")
+    with left:
+        show(input_figure(curves, HEIGHT), "windup_u", "Limited input u, three protections")
+    with right:
+        show(inner_setpoint_figure(curves, HEIGHT), "windup_r2", "Inner set point r2, three protections")
+    st.caption(
+        f"Unit step of the set point from rest, u between {number(limits[0], 3)} and {number(limits[1], 3)}. "
+        "Deviations from the working point, so that the limits enclose 0."
+    )
+
+
+def usual_limits(study: CascadeStudy) -> tuple[float, float]:
+    """Limits that the linear cascade exceeds after a set-point step, two digits: where u ends, and SHARE beyond."""
+    response = time_responses(study)[0][1]
+    u = response.u[response.t < starts(response)[0]]
+    final = float(u[-1])
+    ends = [final + SHARE * (float(end) - final) for end in (u.min(), u.max())]
+    return min(_rounded(ends[0]), 0.0), max(_rounded(ends[1]), 0.0)
+
+
+@lru_cache(maxsize=KEPT)
+def family(loop: CascadeLoop, u_min: float, u_max: float, t_end: float) -> tuple[tuple[str, NestedResponse], ...]:
+    """The three protections, the best first. Raises InvalidParameter."""
+    return tuple((name, limited(loop, u_min, u_max, key, t_end=t_end)) for key, name in NAMES.items())
+
+
+def _rounded(value: float) -> float:
+    return float(np.format_float_scientific(value, precision=1)) if value else 0.0

@@ -1,0 +1,134 @@
+"""The reduction told and judged: steps with their equations, the budget, other delays, the error in numbers."""
+
+import math
+
+import streamlit as st
+
+from pages.common.parts.panel import show
+from pages.common.parts.symbols import sentence, symbols
+from pages.common.session import state
+from pages.common.studies.single import Study
+from simc_core.figures import bode_figure, budget_figure, model_error_figure, plant_step_figure
+from simc_core.notation import latex, latex_number, number
+from simc_core.reduction.model_error import ModelError, model_error
+from simc_core.reduction.records import Reduction
+
+HEIGHT, TALL = 260, 400  # px
+ORDERS = {1: "1 (PI)", 2: "2 (PID)"}
+RULES = {"2003": "2003: T1–T3", "1998": "1998"}
+VERDICTS = {
+    "good": (st.success, "**Good enough.** The error uses at most half of what this loop can bear"),
+    "usable": (
+        st.info,
+        "**Usable.** The loop is certain to be stable, but it will differ visibly from what the model promises",
+    ),
+    "not certain": (
+        st.warning,
+        "**Not certain.** The error exceeds what the bound allows, which is sufficient, not necessary: "
+        "the tuning page judges the loop round the full plant. Take a larger $\\tau_c$ or order 2",
+    ),
+}
+
+
+def choices() -> None:
+    """Order, sampling period, set of rules."""
+    order, h, rules = st.columns([3, 2, 4], vertical_alignment="bottom")
+    order.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
+    h.number_input(
+        "Sampling h",
+        0.0,
+        1e9,
+        format="%.4g",
+        help="Sampling period of a digital controller; half of it counts as dead time. 0: continuous.",
+        **state.bound("h"),
+    )
+    rules.segmented_control(
+        "Rules for zeros",
+        list(RULES),
+        format_func=RULES.get,
+        help="2003: rules T1 to T3 [SK03 sect. 2.2]. 1998: the simpler, older form [SK98]: small zeros are "
+        "subtracted from the delay, a large one is cancelled.",
+        **state.bound("rules"),
+    )
+
+
+def story(reduction: Reduction) -> None:
+    """What was done, in order, each line with its equation."""
+    st.latex(f"G(s) \\approx {latex(reduction.model)}")
+    with st.container(border=True, key="story"):
+        for i, step in enumerate(reduction.steps, start=1):
+            st.markdown(f"{i}. {symbols(step.text)}" + (f"  \n   ${step.equation}$" if step.equation else ""))
+    st.caption("[SK03 eq. 10-11 and rules T1-T3; V06 eq. 15-17]")
+    for note in reduction.notes:
+        st.info(sentence(note))
+
+
+def budget(reduction: Reduction) -> None:
+    """A bar per lag, zero and dead time: what became of it."""
+    st.markdown("**Where every time constant went**")
+    show(budget_figure(reduction), "budget", "What became of every lag, zero and dead time")
+
+
+def candidates(reduction: Reduction) -> None:
+    """Other self-consistent delays, and why this one."""
+    if len(reduction.candidates) < 2:
+        return
+    st.markdown("**More than one delay satisfies the rules**")
+    st.dataframe(
+        [
+            {
+                "θ": number(each.theta),
+                "Ms, tight loop round the plant": number(each.Ms) if math.isfinite(each.Ms) else "no stable loop",
+                "": "taken" if each.chosen else "",
+            }
+            for each in reduction.candidates
+        ],
+        hide_index=True,
+        width="content",
+    )
+    st.caption("Taken: the smallest θ > 0 whose tight SIMC loop round the full plant has Ms ≤ 2.")
+
+
+def comparison(study: Study) -> None:
+    """Reduced against full model: over time, over frequency, and in numbers."""
+    compared = model_error(study.loop.plant, study.model, study.controller)
+    step, bode, error = st.tabs(["Step response", "Bode", "Error over frequency"], key="comparison")
+    with step:
+        show(
+            plant_step_figure(compared.step, compared.model_step, HEIGHT), "steps", "Step responses of plant and model"
+        )
+    with bode:
+        show(bode_figure(study.loop.plant, study.model.plant, TALL), "bodes", "Bode diagrams of plant and model")
+    with error:
+        show(
+            model_error_figure(compared.omega, compared.error, compared.bound, HEIGHT), "error", "Relative model error"
+        )
+        st.caption(
+            "The loop designed on the model $G_r$ is stable round $G$ where "
+            "$|G - G_r|/|G_r| < 1/|T|$ at all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
+        )
+    numbers(compared)
+
+
+def numbers(compared: ModelError) -> None:
+    """The error as numbers, and what they mean."""
+    fraction = "" if math.isnan(compared.step_fraction) else f", {number(100 * compared.step_fraction, 3)} % of $k$"
+    st.markdown(
+        f"Largest difference of the step responses **{number(compared.step_difference, 3)}**{fraction}, "
+        f"at $t = {latex_number(compared.step_time, 3)}.$"
+    )
+    place, words = VERDICTS[compared.verdict]
+    share = (
+        ""
+        if math.isnan(compared.used)
+        else (
+            f": at worst $|G - G_r|\\,|T|/|G_r|$ = {number(compared.used, 3)} at $\\omega = "
+            f"{latex_number(compared.omega_used, 3)}$, limit 1 [RMS86 eq. 10]."
+        )
+    )
+    if compared.error[0] >= 1:
+        words = (
+            "**Made for fast control.** The model keeps the beginning of the response, not its steady state: the rules "
+            "for zeros hold at the frequencies of the tight loop. The tuning page judges the loop round the full plant"
+        )
+    place(words + (share or ": the loop round the model itself is not stable."))

@@ -1,0 +1,257 @@
+"""What the instrument is sent: a table over tau_c, and the exact numbers of one design. Pure: no streamlit."""
+
+import hashlib
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pages.common.live.kit.packing import figures, pack
+from pages.common.session.design import Tuning
+from pages.common.studies.single import Study
+from simc_core.certificate.verdict import stability
+from simc_core.controllers.forms import Controller
+from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.loop import Loop
+from simc_core.plants.models import Model, UnstableDelay
+from simc_core.plants.plant import Plant
+from simc_core.rules.simc import simc, tau_c_presets
+from simc_core.simulation import Scenario, simulate
+from simc_core.simulation.horizon import settling_horizon
+from simc_core.studies.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
+from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
+
+SHORTEST, LONGEST = 0.1, 100.0  # of tau_c over theta, on the slider
+POINTS = 300
+LOAD_AT = 0.5  # of the horizon
+JUMPS = 12  # instants k theta after each step at which curves may break
+BEFORE = 1e-9  # relative: the left-hand side of a jump
+SHORT_OF, BEYOND = 0.35, 1.25  # of the horizon on the screen: a design that needs as much is still well shown on it
+BISECTIONS = 30
+CURVES = ("y", "u", "re", "im")
+FIGURES = (
+    "Ms",
+    "Mt",
+    "GM",
+    "GM_lower",
+    "PM_deg",
+    "delay_margin",
+    "IAE_setpoint",
+    "IAE_load",
+    "TV_setpoint",
+    "TV_load",
+    "overshoot",
+    "noise_gain",
+)
+SWEPT = (*MARGINS[4:], *MARGINS[:4], *METRICS)  # where a Sweep has the first of them
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Bench:
+    """The instants and frequencies everything is computed at, so that table, pins and exact curves share them."""
+
+    t: np.ndarray
+    load: float
+    omega: np.ndarray
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What is tuned: everything but tau_c."""
+
+    plant: Plant
+    model: Model
+    tuning: Tuning
+    form: str
+
+    def controller(self, tau_c: float) -> Controller:
+        """SIMC at tau_c, with set-point weight and filter."""
+        return dressed(simc(self.model, tau_c), self.tuning.b, self.tuning.filter)
+
+    def loop(self, tau_c: float) -> Loop:
+        """The loop round the full plant."""
+        return Loop(self.plant, self.controller(tau_c))
+
+    def swept(self, tau_c: np.ndarray, on: "Bench") -> Sweep:
+        """Everything at all tau_c."""
+        b, ratio = self.tuning.b, self.tuning.filter
+        return sweep(self.plant, self.model, tau_c, on.t, on.omega, b, ratio, on.load)
+
+
+def subject(plant: Plant, present: Study, form: str) -> Subject:
+    """The subject of the study; a form that does not exist for this controller gives way to the parallel one."""
+    if not present.controller.has_form(form):
+        form = "parallel"
+    return Subject(plant, present.model, replace(present.tuning, tau_c=None), form)
+
+
+def bench(of: Subject, present: Study, shown: float | None = None) -> Bench:
+    """Instants and frequencies. shown: the horizon on the screen, kept as long as the present design suits it.
+
+    The frequencies are those of one reference design, so that they do not change with tau_c.
+    """
+    wanted = 2 * settling_horizon(present.loop)
+    end = shown if shown and SHORT_OF <= wanted / shown <= BEYOND else wanted
+    load, theta = LOAD_AT * end, of.plant.theta
+    breaks = np.array([start + k * theta for start in (0.0, load) for k in range(JUMPS + 1)])
+    breaks = breaks[(breaks > 0) & (breaks < end)]
+    t = np.unique(np.concatenate([np.linspace(0.0, end, POINTS + 1), breaks, breaks * (1 - BEFORE)]))
+    return Bench(t, load, omega_grid([of.loop(bounds(of.model)[2]).L]))
+
+
+def bounds(model: Model) -> tuple[float, float, float, str]:
+    """low, high of tau_c on the slider, the length of 1 on its scale, and what that is called."""
+    presets = tau_c_presets(model)
+    unit = model.theta or next(iter(presets.values()), 1.0)
+    high = max(LONGEST * unit, *presets.values(), 0.0)
+    return SHORTEST * unit, high, unit, "θ" if model.theta else ""
+
+
+def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) -> bytes:
+    """The table as bytes, under its name."""
+    low, high, unit, symbol = bounds(of.model)
+    grid, found = rows(of, on)
+    names = list(found.controllers[0].in_form(of.form).settings)
+    header = {
+        "kind": "table",
+        "id": name,
+        "log_tau_c": grid.x.tolist(),
+        "breaks": grid.breaks,
+        "t": on.t.tolist(),
+        "load": on.load,
+        "omega": on.omega.tolist(),
+        "settings": names,
+        "metrics": FIGURES,
+        "unit": unit,
+        "symbol": symbol,
+        "low": low,
+        "high": high,
+        "fixed": isinstance(of.model, UnstableDelay),
+        "unstable": unstable_ranges(
+            grid.tau_c, found.stable, lambda each: stability(of.loop(each)).verdict == "stable"
+        ),
+        "presets": list(tau_c_presets(of.model).items()),
+        "pins": [{"name": letter, "metrics": figures(judged(each, on.omega))} for letter, each in pins],
+    }
+    blocks = curves(found)
+    for field in ("y", "u"):
+        header[f"{field}_cap"] = cap(blocks[field][found.stable], 1.0)
+    blocks["settings"] = np.array([list(each.in_form(of.form).settings.values()) for each in found.controllers])
+    blocks["metrics"] = metrics(of, found)
+    if pins:
+        pinned = zip(*[responses(each.loop, on) for _, each in pins], strict=True)
+        blocks |= {f"pin_{field}": np.array(rows) for field, rows in zip(CURVES, pinned, strict=True)}
+    return pack(header, blocks)
+
+
+def rows(of: Subject, on: Bench) -> tuple[Rows, Sweep]:
+    """Rows close enough for reading between them, and everything there."""
+    low, high, *_ = bounds(of.model)
+    if isinstance(of.model, UnstableDelay):  # the rule knows one tau_c: two rows of the same
+        grid = Rows(np.log([0.99, 1.01]) + math.log(of.model.theta), (0, 1))
+        return grid, of.swept(np.full(2, of.model.theta), on)
+
+    def compute(tau_c: np.ndarray) -> list[np.ndarray]:
+        controllers = [of.controller(each) for each in tau_c.tolist()]
+        y, u = time_curves(of.plant, controllers, on.t, on.load).sum(axis=2).transpose(1, 0, 2)
+        return [y, u]
+
+    grid, _ = refined(first_rows(low, high, kinks(of.model)), compute)
+    return grid, of.swept(grid.tau_c, on)
+
+
+def curves(found: Sweep) -> dict[str, np.ndarray]:
+    """CURVES of a sweep: a step of r at 0 and one of d at the time of the load; each of shape (rows, points)."""
+    y, u = found.y_setpoint + found.y_disturbance, found.u_setpoint + found.u_disturbance
+    return dict(zip(CURVES, (y, u, found.L.real, found.L.imag), strict=True))
+
+
+def metrics(of: Subject, found: Sweep) -> np.ndarray:
+    """FIGURES of all rows, (rows, figures)."""
+    values = {name: getattr(found, of_sweep) for name, of_sweep in zip(FIGURES, SWEPT, strict=False)}
+    G = of.plant.response(1j * found.omega)
+    noise = [noise_gain(L, G, each) for L, each in zip(found.L, found.controllers, strict=True)]
+    values["noise_gain"] = np.where(found.stable, noise, np.nan)
+    return np.array([values[name] for name in FIGURES]).T
+
+
+def exact(of: Subject, on: Bench, present: Study, name: str, answers: int) -> bytes:
+    """The present design without interpolation. name: of the table it belongs to; answers: the release it answers."""
+    header = {
+        "kind": "exact",
+        "to": "tuning",
+        "table": name,
+        "tau_c": present.tau_c,
+        "answers": answers,
+        "stable": present.stable,
+        "settings": present.controller.in_form(of.form).settings,
+        "metrics": figures(judged(present, on.omega)),
+    }
+    return pack(header, dict(zip(CURVES, responses(present.loop, on), strict=True)))
+
+
+def responses(loop: Loop, on: Bench) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """y and u at the instants, Re L and Im L at the frequencies."""
+    course = simulate(loop, Scenario(disturbance_time=on.load, t_end=float(on.t[-1]), t=on.t))
+    L = loop.L(1j * on.omega)
+    return course.y, course.u, L.real, L.imag
+
+
+def judged(each: Study, omega: np.ndarray) -> dict[str, float]:
+    """FIGURES of a study; all nan where the loop is not stable."""
+    if not each.stable:
+        return dict.fromkeys(FIGURES, math.nan)
+    metrics, s = each.performance, 1j * omega
+    values = (
+        *(getattr(each.margins, name) for name in SWEPT[:6]),
+        metrics.setpoint.IAE,
+        metrics.disturbance.IAE,
+        metrics.setpoint.TV,
+        metrics.disturbance.TV,
+        metrics.setpoint.overshoot,
+        noise_gain(each.loop.L(s), each.loop.plant.response(s), each.controller),
+    )
+    return dict(zip(FIGURES, values, strict=True))
+
+
+def noise_gain(L: np.ndarray, G: np.ndarray, controller: Controller) -> float:
+    """Largest |K S| = |L/G/(1 + L)|, measurement noise to input, at the frequencies of L and G and beyond all of them.
+
+    Infinite for a derivative without filter.
+    """
+    form = controller.to_parallel()
+    if form.Kd and not form.tau_F:
+        return math.inf
+    at_infinity = abs(form.Kd / form.tau_F if form.tau_F else form.Kp)
+    return max(float(np.max(np.abs(L / (G * (1 + L))))), at_infinity)
+
+
+def unstable_ranges(
+    tau_c: np.ndarray, stable: np.ndarray, is_stable: Callable[[float], bool]
+) -> list[tuple[float, float]]:
+    """Ranges of tau_c without a stable loop; their ends by bisection between the rows, logarithmic."""
+    ends = [float(tau_c[0])] if not stable[0] else []
+    for i in np.flatnonzero(stable[1:] != stable[:-1]):
+        a, b = math.log(tau_c[i]), math.log(tau_c[i + 1])
+        for _ in range(BISECTIONS):
+            middle = (a + b) / 2
+            a, b = (middle, b) if is_stable(math.exp(middle)) == stable[i] else (a, middle)
+        ends.append(math.exp((a + b) / 2))
+    if not stable[-1]:
+        ends.append(float(tau_c[-1]))
+    return list(zip(ends[::2], ends[1::2], strict=True))
+
+
+def cap(responses: np.ndarray, room: float) -> tuple[float, float]:
+    """Limits that no axis goes beyond: what stable loops reach, and `room` times that span on either side."""
+    if not responses.size:
+        return (-10.0, 10.0)
+    low, high = min(float(responses.min()), 0.0), max(float(responses.max()), 1.0)
+    return (low - room * (high - low), high + room * (high - low))
+
+
+def name_of(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]]) -> str:
+    """Same name, same table."""
+    what = (of, float(on.t[-1]), len(on.omega), float(on.omega[0]), float(on.omega[-1]), [p.tuning for _, p in pins])
+    return hashlib.sha256(repr(what).encode()).hexdigest()[:16]

@@ -1,0 +1,48 @@
+"""Figures on a page: one, or a field of panels two by two, on a narrow screen the chosen one alone."""
+
+from dataclasses import dataclass
+
+import streamlit as st
+
+from simc_core.figures import Figure, config
+
+NARROW = "@media (max-width: 640px)"
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """A figure of the field. key: for styles and the file it is saved as; label: on the switch of a narrow screen."""
+
+    key: str
+    label: str
+    alt: str
+    figure: Figure
+
+
+def field(found: tuple[Panel, ...]) -> None:
+    """Panels two by two; on a narrow screen the one that is chosen."""
+    labels = [panel.label for panel in found]
+    chosen = st.segmented_control(
+        "Panel", labels, default=labels[0], required=True, key="panel", label_visibility="collapsed", width="stretch"
+    )
+    st.html(_style([panel.key for panel in found], labels.index(chosen)))
+    with st.container(key="panels"):
+        for panel in found:
+            with st.container(key=f"panel_{panel.key}"):
+                show(panel.figure, panel.key, panel.alt)
+
+
+def show(figure: Figure, key: str, alt: str) -> None:
+    """A figure with hover, zoom and SVG export."""
+    st.plotly_chart(figure, key=f"figure_{key}", config=config(key), alt=alt)
+
+
+def _style(keys: list[str], chosen: int) -> str:
+    """Two by two on a wide screen; on a narrow one the panel chosen alone, and the choice in sight."""
+    hidden = ", ".join(f".st-key-panel_{key}" for i, key in enumerate(keys) if i != chosen)
+    return f"""<style>
+.st-key-panels {{display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem 0.75rem}}
+.st-key-panels > * {{min-width: 0}}
+.st-key-panel {{display: none}}
+{NARROW} {{.st-key-panels {{grid-template-columns: 1fr}} .st-key-panel {{display: flex}} {hidden} {{display: none}}}}
+</style>"""

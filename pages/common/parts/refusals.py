@@ -1,0 +1,25 @@
+"""What the core refuses, told in words in place of a traceback; the look of all warnings."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import streamlit as st
+
+from pages.common.parts.symbols import sentence
+from simc_core.errors import NotReducible, SimcError
+
+STYLE = """<style>
+.st-key-guards [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
+.st-key-guards p {font-size: 0.85rem; line-height: 1.35}
+</style>"""
+
+
+@contextmanager
+def explain_refusal() -> Iterator[None]:
+    """A SimcError raised inside is told in words, in place of the rest of the page."""
+    try:
+        yield
+    except NotReducible as error:
+        st.error(f"**The half rule does not cover this plant.** {sentence(str(error))}")
+    except SimcError as error:
+        st.error(f"**This design is not possible.** {sentence(str(error))}")

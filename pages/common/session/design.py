@@ -1,0 +1,165 @@
+"""What the user has decided: the records behind every page, their defaults and their bounds.
+
+Pure Python, no streamlit. links.py writes a Design as an address, project.py as a file, state.py keeps one a session.
+"""
+
+import math
+from dataclasses import dataclass, field
+
+from simc_core import Plant, Scenario, checks
+from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
+from simc_core.controllers.forms import FORMS
+from simc_core.errors import InvalidParameter
+
+KINDS = ("PI", "PID")
+METHODS = ("simc", "synthesis")
+FILTERS = ("N", "zero")
+RULES = ("2003", "1998")
+MOST_PINS = 4
+LOWEST_N, HIGHEST_N = 0.1, 1000.0
+
+
+@dataclass(frozen=True, slots=True)
+class Tuning:
+    """How a controller is made from the plant.
+
+    order: of the reduced model; 1 gives a PI, 2 a PID controller.   h: sampling period, 0 if continuous.
+    tau_c: closed-loop time constant, None for tight, which is the model's own theta.
+    b: set-point weight.   filter: tau_F/tau_D, 0 for no filter.   rules: of the reduction, [SK03] or [SK98].
+    """
+
+    order: int = 1
+    h: float = 0.0
+    tau_c: float | None = None
+    b: float = 1.0
+    filter: float = 0.0
+    rules: str = "2003"
+
+    def __post_init__(self):
+        put = object.__setattr__
+        put(self, "order", checks.whole("order", self.order, 1, 2))
+        put(self, "h", checks.optional_time("h", self.h))
+        if self.tau_c is not None:
+            put(self, "tau_c", checks.positive_time("tau_c", self.tau_c))
+        put(self, "b", checks.real("b", self.b, 0.0, 2.0))
+        put(self, "filter", checks.real("filter", self.filter, 0.0, 10.0))
+        one_of("rules", self.rules, RULES)
+
+    @property
+    def kind(self) -> str:
+        """PI or PID, which follows from the order of the model."""
+        return KINDS[self.order - 1]
+
+
+@dataclass(frozen=True, slots=True)
+class Actuator:
+    """How the loop is built, and what is asked of it there: see simc_core Actuation; None for no limit.
+
+    tracking_time: None for the default.   h: sampling period of the controller as built; Tuning.h is the one that the
+    half rule allows for.   setpoint, disturbance: heights of the steps, which matter where u has limits.
+    """
+
+    u_min: float | None = None
+    u_max: float | None = None
+    tracking_time: float | None = None
+    noise: float = 0.0
+    seed: int = 0
+    h: float = 0.0
+    setpoint: float = 1.0
+    disturbance: float = 1.0
+
+    def __post_init__(self):
+        put = object.__setattr__
+        for name in ("u_min", "u_max"):
+            if getattr(self, name):
+                put(self, name, checks.gain(name, getattr(self, name)))
+        if self.tracking_time is not None:
+            put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
+        scenario = self.scenario  # which checks what it is made of
+        for name in ("noise", "seed", "h", "setpoint", "disturbance"):
+            put(self, name, getattr(scenario, name))
+
+    @property
+    def scenario(self) -> Scenario:
+        """The steps with all of this."""
+        u_min = -math.inf if self.u_min is None else self.u_min
+        u_max = math.inf if self.u_max is None else self.u_max
+        return Scenario(
+            self.setpoint,
+            self.disturbance,
+            u_min=u_min,
+            u_max=u_max,
+            tracking_time=self.tracking_time,
+            noise=self.noise,
+            seed=self.seed,
+            h=self.h,
+        )
+
+    @property
+    def on(self) -> bool:
+        """Whether the loop as built is another one than the linear loop."""
+        return not self.scenario.actuation.linear
+
+
+@dataclass(frozen=True, slots=True)
+class Cascade:
+    """Both blocks and how their controllers are designed; None for what the method chooses itself.
+
+    primary: Ga, the block of the outer loop.   secondary: Gb, the block of the inner loop.
+    tau_c_inner, tau_c_outer: also serve as lambda of the direct synthesis; they go before the Ms of the same loop.
+    N_inner, N_outer: lambda/tau_F of a PID by direct synthesis.
+    filter_outer: "zero" where tau_F of the outer one is to cancel the zero of the inner loop instead.
+    """
+
+    primary: Plant = field(default_factory=lambda: Plant(2.0, 2.0, (5.0,)))
+    secondary: Plant = field(default_factory=lambda: Plant(1.0, 1.0, (2.0, 3.0)))
+    method: str = "simc"
+    inner: str = "PID"
+    outer: str = "PID"
+    tau_c_inner: float | None = None
+    tau_c_outer: float | None = None
+    Ms_inner: float | None = None
+    Ms_outer: float | None = None
+    b: float = 1.0
+    N_inner: float = 20.0
+    N_outer: float = 20.0
+    filter_outer: str = "N"
+
+    def __post_init__(self):
+        put = object.__setattr__
+        one_of("filter_outer", self.filter_outer, FILTERS)
+        one_of("method", self.method, METHODS)
+        one_of("inner", self.inner, KINDS)
+        one_of("outer", self.outer, KINDS)
+        for name in ("tau_c_inner", "tau_c_outer"):
+            if getattr(self, name) is not None:
+                put(self, name, checks.positive_time(name, getattr(self, name)))
+        for name in ("Ms_inner", "Ms_outer"):
+            if getattr(self, name) is not None:
+                put(self, name, checks.real(name, getattr(self, name), LOWEST_MS, HIGHEST_MS))
+        for name in ("N_inner", "N_outer"):
+            put(self, name, checks.real(name, getattr(self, name), LOWEST_N, HIGHEST_N))
+        put(self, "b", checks.real("b", self.b, 0.0, 2.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Design:
+    """Everything a link or a project file holds. pins: tunings set aside to compare with the present one."""
+
+    plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
+    tuning: Tuning = field(default_factory=Tuning)
+    form: str = "series"
+    pins: tuple[Tuning, ...] = ()
+    cascade: Cascade = field(default_factory=Cascade)
+    actuator: Actuator = field(default_factory=Actuator)
+
+    def __post_init__(self):
+        one_of("form", self.form, FORMS)
+        object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
+
+
+def one_of(name: str, value, choices: tuple[str, ...]) -> str:
+    """`value`, which must be one of `choices`. Raises InvalidParameter."""
+    if value not in choices:
+        raise InvalidParameter(f"{name} must be one of {', '.join(choices)}, got {str(value)[:40]}")
+    return value

@@ -1,0 +1,194 @@
+"""The design of this session: the only place for st.session_state and st.query_params.
+
+One Design is the truth. Widgets show it and write to it (`bound`); the address always shows it (`begin`).
+It survives page changes, and every page can be opened first or run alone, since defaults are inside.
+
+    design = state.begin()                                at the top of a page; header.show does it
+    order = st.segmented_control("Model", (1, 2), **state.bound("order"))
+    state.plant(), state.tuning(), state.cascade()        what is decided so far
+    state.change(tau_c=7.5)                               from a button's callback, or before st.rerun()
+"""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import streamlit as st
+
+from pages.common.session import links
+from pages.common.session.design import Cascade, Design, Tuning
+from pages.common.session.links import ACTUATOR_FIELDS, CASCADE_FIELDS, TUNING_FIELDS, Ignored
+from simc_core import Plant
+
+ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
+OF_DESIGN = ("plant", "form", "pins")
+
+
+def begin() -> Design:
+    """Read the address if it is new, then make it show the design. May be called more than once a run."""
+    given = st.query_params.to_dict()
+    if given and given != st.session_state.get("address") and not _late(given):
+        design, ignored = links.decode(given)
+        st.session_state["design"] = design
+        st.session_state["ignored"] = ignored
+    _show_in_address()
+    return design_now()
+
+
+def design_now() -> Design:
+    """The whole design."""
+    if "design" not in st.session_state:
+        st.session_state["design"] = Design()
+    return st.session_state["design"]
+
+
+def plant() -> Plant:
+    """The plant."""
+    return design_now().plant
+
+
+def tuning() -> Tuning:
+    """order, h, tau_c, b, filter, rules."""
+    return design_now().tuning
+
+
+def cascade() -> Cascade:
+    """Blocks and settings of the cascade page."""
+    return design_now().cascade
+
+
+def change(**values) -> None:
+    """Change fields by their names in links.py: plant, order, tau_c, b, form, pins, Ga, Gb, method, and the others.
+
+    Raises InvalidParameter and then changes nothing.
+    """
+    design = design_now()
+    for name, value in values.items():
+        if name in OF_DESIGN:
+            design = replace(design, **{name: value})
+        elif name in TUNING_FIELDS:
+            design = replace(design, tuning=replace(design.tuning, **{name: value}))
+        elif name in ACTUATOR_FIELDS:
+            design = replace(design, actuator=replace(design.actuator, **{ACTUATOR_FIELDS[name]: value}))
+        else:
+            design = replace(design, cascade=replace(design.cascade, **{CASCADE_FIELDS[name]: value}))
+    replace_design(design)
+
+
+def replace_design(design: Design) -> None:
+    """Take another design, for example from a project file."""
+    st.session_state["design"] = design
+    _show_in_address()
+
+
+def value(name: str) -> Any:
+    """A field by its name in links.py."""
+    design = design_now()
+    if name in OF_DESIGN:
+        return getattr(design, name)
+    if name in TUNING_FIELDS:
+        return getattr(design.tuning, name)
+    if name in ACTUATOR_FIELDS:
+        return getattr(design.actuator, ACTUATOR_FIELDS[name])
+    return getattr(design.cascade, CASCADE_FIELDS[name])
+
+
+def bound(
+    name: str,
+    show: Callable = lambda value: value,
+    read: Callable = lambda value: value,
+    key: str | None = None,
+    optional: bool = False,
+) -> dict[str, Any]:
+    """Keyword arguments that tie a widget to a field: it shows the field and changes it.
+
+    show: from the field to what the widget holds; read: back. A widget that gives None (an emptied selection)
+    leaves the field as it is, or sets it to None where that is one of its values: optional. Values a widget can give
+    must be within the field's bounds.   key: of the widget, where one field has several.
+    """
+    key = key or f"widget_{name}"
+    set_widget(key, show(value(name)))
+    return {"key": key, "on_change": _take, "args": (key, name, read, optional)}
+
+
+def _take(key: str, name: str, read: Callable, optional: bool) -> None:
+    given = st.session_state[key]
+    if given is not None:
+        change(**{name: read(given)})
+    elif optional:
+        change(**{name: None})
+
+
+def memory(name: str, start: Callable[[], Any]) -> Any:
+    """Something a page remembers that is not part of the design, such as text being typed; `start` makes the first."""
+    key = f"memory_{name}"
+    if key not in st.session_state:
+        st.session_state[key] = start()
+    return st.session_state[key]
+
+
+def remember(name: str, thing: Any) -> None:
+    """Replace what `memory(name)` gives."""
+    st.session_state[f"memory_{name}"] = thing
+
+
+def widget(key: str, default: Any = None) -> Any:
+    """What the widget of this key holds now, for use in its callback."""
+    return st.session_state.get(key, default)
+
+
+def set_widget(key: str, thing: Any) -> None:
+    """Put a value into the widget of this key, before it is made.
+
+    Where the widget holds it already nothing is sent, so that typing that goes on is not overwritten.
+    """
+    if key not in st.session_state or st.session_state[key] != thing:
+        st.session_state[key] = thing
+
+
+def ignored() -> list[Ignored]:
+    """What the last address held that could not be used."""
+    return st.session_state.get("ignored", [])
+
+
+def dismiss_ignored() -> None:
+    """The user has read it."""
+    st.session_state["ignored"] = []
+
+
+def address() -> str:
+    """The address of this page with the design in it."""
+    base = (st.context.url or "").split("?")[0]
+    return f"{base}?{links.query(design_now())}"
+
+
+def parameters() -> dict[str, str]:
+    """The query parameters of the design, for links to other pages."""
+    return links.encode(design_now())
+
+
+def offer_pages(pages: Mapping[str, Any]) -> None:
+    """The router tells which pages there are."""
+    st.session_state["pages"] = dict(pages)
+
+
+def page(name: str) -> Any | None:
+    """The page of this name, None if the present page runs alone, without the router."""
+    return st.session_state.get("pages", {}).get(name)
+
+
+def _late(given: dict[str, str]) -> bool:
+    """Whether the browser still showed our former address when it asked, because the new one was on its way."""
+    former, until = st.session_state.get("former_address", ({}, 0.0))
+    return given == former and time.monotonic() < until
+
+
+def _show_in_address() -> None:
+    wanted = links.encode(design_now())
+    if st.query_params.to_dict() != wanted:
+        st.query_params.from_dict(wanted)
+    shown = st.session_state.get("address")
+    if shown != wanted:
+        st.session_state["former_address"] = (shown, time.monotonic() + ON_ITS_WAY)
+        st.session_state["address"] = wanted

@@ -1,0 +1,112 @@
+"""The line on top of every page, and the sidebar: what is being worked on, where we are, how to take it along."""
+
+from functools import partial
+
+import streamlit as st
+
+from pages.common.session import project, state
+from pages.common.session.design import Design
+from simc_core.notation import latex
+from simc_core.plants.plant import Plant
+
+TITLES = {
+    "home": "Home",
+    "plant": "Plant",
+    "half_rule": "Half rule",
+    "tuning": "Tuning",
+    "cascade": "Cascade",
+    "accuracy": "Accuracy",
+}
+# Less air round the page than Streamlit leaves: an instrument shows its dials. The line stays one line where it fits.
+STYLE = """<style>
+[data-testid="stMainBlockContainer"] {padding: 3rem 2rem 2rem}
+@media (max-width: 640px) {[data-testid="stMainBlockContainer"] {padding: 4rem 0.75rem 2rem}}
+.st-key-line {border-bottom: 1px solid var(--st-border-color); padding-bottom: 0.4rem}
+.st-key-line .katex {font-size: 1.15em}
+.st-key-line p {padding-block: 0.2rem} /* room for the exponent of a tall fraction */
+/* A transfer function wider than its place scrolls there, and leaves the page as it is. */
+[data-testid="stMain"] :is(p, .katex-display):has(> .katex) {overflow-x: auto; overflow-y: hidden}
+.st-key-line [data-testid="stElementContainer"] {max-width: 100%}
+</style>"""
+CHAIN = ("plant", "half_rule", "tuning", "cascade")
+
+
+def go(place: str) -> None:
+    """Open another page with the present design; alone, without the router, show the present one again."""
+    page = state.page(place)
+    if page is None:
+        st.rerun()
+    st.switch_page(page, query_params=state.parameters())
+
+
+def show(place: str) -> Design:
+    """Page settings, the line on top, notices and the sidebar. `place` is a key of TITLES. Returns the design."""
+    st.set_page_config(page_title=f"{TITLES[place]} · SIMC", page_icon="🎚️", layout="wide")
+    st.html(STYLE)
+    design = state.begin()
+    with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
+        if place == "cascade":
+            _block("G_a", design.cascade.primary)
+            _block("G_b", design.cascade.secondary)
+        else:
+            _block("G", design.plant)
+        if place in CHAIN:
+            chain(place)
+    _notices()
+    with st.sidebar:
+        _take_along()
+    return design
+
+
+def chain(place: str, key: str = "chain") -> None:
+    """Plant > Half rule > Tuning > Cascade, to click, with the present place marked."""
+    with st.container(key=key, horizontal=True, vertical_alignment="center", gap="xsmall", width="content"):
+        for i, name in enumerate(CHAIN):
+            if i:
+                st.markdown(":gray[›]", width="content")
+            page = state.page(name)
+            if name == place:
+                st.markdown(f"**:blue[{TITLES[name]}]**", width="content")
+            elif page is None:
+                st.markdown(TITLES[name], width="content")
+            else:
+                st.page_link(page, label=TITLES[name], query_params=state.parameters())
+
+
+def _block(name: str, plant: Plant) -> None:
+    st.markdown(f"${name}(s) = {latex(plant)}$", width="content")
+    st.caption(f"{plant.kind}, $\\theta$ = {plant.theta:g}", width="content")
+
+
+def _notices() -> None:
+    ignored = state.ignored()
+    if not ignored:
+        return
+    lines = "\n".join(f"- {notice}" for notice in ignored)
+    with st.container(horizontal=True, vertical_alignment="center"):
+        st.warning(f"Part of the link could not be used, the rest was.\n\n{lines}", width="stretch")
+        st.button("Dismiss", on_click=state.dismiss_ignored)
+
+
+def _take_along() -> None:
+    st.caption("Link to this page and design")
+    st.code(state.address(), language=None)
+    content = partial(project.dump, state.design_now())  # made when asked for: nothing is stored that runs replace
+    st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
+    upload = st.file_uploader("Open project", type="json", key="project_file")
+    if upload is not None:
+        _open(upload)
+
+
+def _open(upload) -> None:
+    """Take the design of a file, once; a wrong file changes nothing and says why."""
+    if state.memory("opened", lambda: None) != upload.file_id:
+        state.remember("opened", upload.file_id)
+        design, why = project.load(upload.getvalue())
+        state.remember("refused", why)
+        if design is not None:
+            state.replace_design(design)
+            st.rerun()
+    why = state.memory("refused", lambda: "")
+    if why:
+        st.error(f"{upload.name} was not opened, nothing changed: {why}")

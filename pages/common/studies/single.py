@@ -1,0 +1,103 @@
+"""From what the user has decided to everything the pages show of it. Pure: no streamlit."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from pages.common.session.design import Tuning
+from simc_core.controllers.forms import Controller
+from simc_core.errors import NotStable
+from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
+from simc_core.metrics.performance import Performance, StepMetrics, performance
+from simc_core.plants.models import Model, UnstableDelay
+from simc_core.plants.plant import Plant
+from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.records import Reduction
+from simc_core.rules.simc import simc, tau_c_presets
+from simc_core.sensitivity.margins import Margins, margins
+from simc_core.simulation import Scenario, TimeResponse, simulate
+from simc_core.studies.sweep import dressed
+
+UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Study:
+    """A tuning, the controller it leads to, and what the loop round the FULL plant does.
+
+    performance: None where the loop is not stable; all nan where it is too near its limit to come to rest.
+    """
+
+    tuning: Tuning
+    reduction: Reduction
+    tau_c: float
+    loop: Loop
+    margins: Margins
+    performance: Performance | None
+
+    @property
+    def model(self) -> Model:
+        """The reduced model."""
+        return self.reduction.model
+
+    @property
+    def controller(self) -> Controller:
+        """The controller, with set-point weight and derivative filter."""
+        return self.loop.controller
+
+    @property
+    def stable(self) -> bool:
+        """Whether margins and metrics mean anything."""
+        return self.margins.stable
+
+
+def study(plant: Plant, tuning: Tuning) -> Study:
+    """Reduce, tune, close the loop, judge it. Raises SimcError, in words, where one of these is impossible."""
+    reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules)
+    tau_c = tau_c_in_use(reduction.model, tuning)
+    loop = Loop(plant, dressed(simc(reduction.model, tau_c), tuning.b, tuning.filter))
+    judged = margins(loop)
+    return Study(tuning, reduction, tau_c, loop, judged, _measured(loop) if judged.stable else None)
+
+
+def _measured(loop: Loop) -> Performance:
+    try:
+        return performance(loop)
+    except NotStable:  # an integral exists, but not within reach
+        return Performance(UNKNOWN, UNKNOWN)
+
+
+def tau_c_in_use(model: Model, tuning: Tuning) -> float:
+    """tau_c as decided; else tight; for a model without dead time, the first preset there is.
+
+    The rule of an unstable pole knows tight alone.
+    """
+    if tuning.tau_c is not None and not isinstance(model, UnstableDelay):
+        return tuning.tau_c
+    return next(iter(tau_c_presets(model).values()), 1.0)
+
+
+def time_responses(studies: list[Study]) -> list[TimeResponse]:
+    """Set-point step, then load step, at the same instants for all; the horizon suits the first study."""
+    first = simulate(studies[0].loop, Scenario())
+    t_end = float(first.t[-1])
+    begins = float(first.t[first.d != 0][0])
+    rest = [simulate(each.loop, Scenario(disturbance_time=begins, t_end=t_end)) for each in studies[1:]]
+    return [first, *rest]
+
+
+def common_grid(studies: list[Study]) -> np.ndarray:
+    """One grid for the loops of all studies, which holds the frequencies of their margins."""
+    return omega_grid([each.loop.L for each in studies], [omega for each in studies for omega in _marks(each.margins)])
+
+
+def frequency_responses(studies: list[Study]) -> list[FrequencyResponse]:
+    """L, S, T of all studies at the same frequencies."""
+    omega = common_grid(studies)
+    return [frequency_response(each.loop, omega) for each in studies]
+
+
+def _marks(judged: Margins) -> tuple[float, ...]:
+    return judged.omega_180, judged.omega_c, judged.omega_Ms, judged.omega_Mt

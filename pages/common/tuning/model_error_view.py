@@ -1,0 +1,76 @@
+"""Model error at a glance: what the controller does to plants a little different from the one it was made for."""
+
+import math
+
+import numpy as np
+import streamlit as st
+
+from pages.common.parts.panel import show
+from pages.common.parts.symbols import symbols
+from pages.common.studies.single import Study
+from simc_core.figures.robustness import band_figure, bundle_figure
+from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.loop import Loop
+from simc_core.notation import number
+from simc_core.simulation import Scenario, TimeResponse, simulate
+from simc_core.studies.plant_family import Robustness, robustness
+
+HEIGHT = 420  # px
+
+
+def model_error_view(study: Study) -> None:
+    """A change in per cent to choose; worst Ms with its corner, exact limits, and both bundles."""
+    percent = st.slider(
+        "Change of $k$, $\\theta$ and $\\tau_1$, each up or down by",
+        5,
+        80,
+        20,
+        5,
+        format="%d %%",
+        key="change",
+        help="$\\tau_1$ is the slowest lag. All corners, and a Latin hypercube of 24 plants between them.",
+    )
+    found = robustness(study.loop, percent / 100)
+    st.markdown(summary(study, found, percent))
+    nominal = simulate(study.loop, Scenario())
+    family = [_response(case.loop, nominal) for case in (*found.corners, *found.samples)]
+    omega = omega_grid([study.loop.L])
+    left, right = st.columns(2, gap="small")
+    with left:
+        figure = bundle_figure(nominal, family, _response(found.worst.loop, nominal), HEIGHT)
+        show(figure, "bundle", "Outputs y of the changed plants")
+    with right:
+        show(
+            band_figure(found, study.loop.L(1j * omega), omega, HEIGHT), "band", "Nyquist curves of the changed plants"
+        )
+
+
+def summary(study: Study, found: Robustness, percent: int) -> str:
+    """Worst case and exact limits in words."""
+    worst, lines = found.worst_corner, []
+    if worst.stable:
+        lines.append(f"Worst $M_s$ at ±{percent} %: **{number(found.worst.Ms)}**, worst corner {symbols(worst.name)}.")
+    else:
+        lost = sum(not case.stable for case in found.corners)
+        lines.append(
+            f"**Not stable in {lost} of {len(found.corners)} corners** at ±{percent} %, "
+            f"among them {symbols(worst.name)}. *Increase $\\tau_c$.*"
+        )
+    if study.stable:
+        lines.append(limits(study.loop, found))
+    return "  \n".join(lines)
+
+
+def limits(loop: Loop, found: Robustness) -> str:
+    """The exact largest changes of k and of theta, each alone."""
+    high = "any increase" if math.isinf(found.k_high) else f"up to × {number(found.k_high)}"
+    low = "any decrease" if found.k_low == 0 else f"down to × {number(found.k_low)}"
+    more = "any addition" if math.isinf(found.theta_more) else f"+ {number(found.theta_more)}"
+    theta = loop.plant.theta
+    share = f" ({100 * found.theta_more / theta:.3g} %)" if theta and math.isfinite(found.theta_more) else ""
+    return f"Alone, exactly: $k$ {high} and {low}; $\\theta$ {more}{share}."
+
+
+def _response(loop: Loop, like: TimeResponse) -> TimeResponse:
+    t = np.linspace(0.0, float(like.t[-1]), 400)
+    return simulate(loop, Scenario(disturbance_time=float(like.t[like.d != 0][0]), t_end=float(t[-1]), t=t))

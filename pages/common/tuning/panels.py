@@ -1,0 +1,51 @@
+"""The figures of the tuning page: four panels side by side, on a narrow screen one at a time; Bode beside them."""
+
+import streamlit as st
+
+from pages.common.parts.panel import Panel, field, show
+from pages.common.studies.single import Study, common_grid, frequency_responses, time_responses
+from simc_core.figures import (
+    input_figure,
+    nyquist_figure,
+    open_loop_figure,
+    output_figure,
+    sensitivity_figure,
+)
+from simc_core.figures.curves import bode_curve
+from simc_core.notation import number
+from simc_core.sensitivity.margins import crossings
+
+HEIGHT, TALL = 250, 480  # px
+
+
+def panels(studies: list[tuple[str, Study]]) -> None:
+    """y, u, Nyquist, |S| and |T| of the present design (first) and the pinned ones."""
+    names, records = [name for name, _ in studies], [each for _, each in studies]
+    present = records[0]
+    times = list(zip(names, time_responses(records), strict=True))
+    frequencies = list(zip(names, frequency_responses(records), strict=True))
+    y, u = output_figure(times, HEIGHT, present.stable), input_figure(times, HEIGHT, present.stable)
+    nyquist = nyquist_figure(frequencies, present.margins, HEIGHT)
+    sensitivity = sensitivity_figure(frequencies, present.margins, HEIGHT)
+    field(
+        (
+            Panel("y", "y", "Output y after a set-point step and a load step", y),
+            Panel("u", "u", "Controller output u after a set-point step and a load step", u),
+            Panel("nyquist", "Nyquist", "Nyquist curve of L with Ms and Mt circles", nyquist),
+            Panel("sensitivity", "|S| |T|", "Magnitude of S and T over frequency", sensitivity),
+        )
+    )
+    start = times[0][1].t[times[0][1].d != 0][0]
+    st.caption(
+        f"Unit step of the set point at t = 0, unit step of the load at the plant input at t = {number(start)}; "
+        "time in the unit of your time constants. The loop is closed round the full plant."
+    )
+
+
+def open_loop(studies: list[tuple[str, Study]]) -> None:
+    """Bode diagram of L with the margins drawn in."""
+    omega = common_grid([each for _, each in studies])
+    curves = [(name, bode_curve(each.loop.L, omega)) for name, each in studies]
+    present = studies[0][1]
+    figure = open_loop_figure(curves, present.margins, crossings(present.loop), TALL)
+    show(figure, "open_loop", "Bode diagram of the open loop L")

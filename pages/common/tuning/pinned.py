@@ -1,0 +1,88 @@
+"""Designs set aside and compared with the present one: pinning, names, the table."""
+
+import streamlit as st
+
+from pages.common.session import state
+from pages.common.session.design import MOST_PINS, Tuning
+from pages.common.studies.single import Study, study
+from simc_core.errors import SimcError
+from simc_core.notation import number
+from simc_core.plants.plant import Plant
+
+LETTERS = "ABCD"
+LABELS = (
+    *("controller", "τc", "Kp", "Ki", "Kd", "τF", "b"),
+    *("Ms", "Mt", "GM", "GM, lower limit", "PM, degrees", "delay margin"),
+    *("IAE, set point", "IAE, load", "TV, set point", "TV, load"),
+    *("overshoot, %", "settling, set point", "settling, load"),
+)
+
+
+def pinned_studies(plant: Plant, pins: tuple[Tuning, ...]) -> list[tuple[str, Study]]:
+    """The pinned designs, round the present plant; one that this plant does not allow is named and left out."""
+    found = []
+    for letter, tuning in zip(LETTERS, pins, strict=False):
+        try:
+            found.append((letter, study(plant, tuning)))
+        except SimcError as error:
+            st.caption(f"Pinned design {letter} does not suit this plant: {error}")
+    return found
+
+
+def pin_button(tuning: Tuning, tau_c: float) -> None:
+    """Set the present design aside, with its tau_c as a number, so that it stays what it was."""
+    pins = state.value("pins")
+    full = len(pins) >= MOST_PINS
+    pin, clear = st.columns(2)
+    pin.button(
+        f"Pin as {LETTERS[len(pins)]}" if not full else "Four pinned",
+        key="pin",
+        disabled=full,
+        width="stretch",
+        help="Set this design aside and compare it with the next one: overlaid in the figures, and in the table.",
+        on_click=_pin,
+        args=(pins, tuning, tau_c),
+    )
+    clear.button(
+        "Unpin all", key="unpin", disabled=not pins, width="stretch", on_click=state.change, kwargs={"pins": ()}
+    )
+
+
+def design_table(studies: list[tuple[str, Study]]) -> None:
+    """One column a design, present first; a loop that is not stable has no figures."""
+    columns = {name: facts(each) for name, each in studies}
+    rows = [{"": label} | {name: each.get(label, "–") for name, each in columns.items()} for label in LABELS]
+    wide = {"": st.column_config.TextColumn(width="medium")}
+    st.dataframe(
+        rows, hide_index=True, width="content", height="content", row_height=27, column_config=wide, key="designs"
+    )
+    pins = state.value("pins")
+    if not pins:
+        st.caption("Pin a design to compare it with the next: up to four, overlaid in the figures and listed here.")
+    with st.container(horizontal=True):
+        for i in range(len(pins)):
+            left = pins[:i] + pins[i + 1 :]
+            st.button(f"Unpin {LETTERS[i]}", key=f"unpin_{i}", on_click=state.change, kwargs={"pins": left})
+
+
+def facts(each: Study) -> dict[str, str]:
+    """What the table says of a design by LABELS, four significant digits."""
+    settings = each.controller.to_parallel()
+    kind = "PID" if settings.Kd else "PI" if settings.Kp else "I"
+    numbers = (each.tau_c, settings.Kp, settings.Ki, settings.Kd, settings.tau_F, settings.b)
+    found = [kind, *map(number, numbers)]
+    if not each.stable:
+        return dict(zip(LABELS, [*found, "not stable"], strict=False))
+    judged, metrics = each.margins, each.performance
+    judgement = (
+        *(judged.Ms, judged.Mt, judged.GM, judged.GM_lower, judged.PM_deg, judged.delay_margin),
+        *(metrics.setpoint.IAE, metrics.disturbance.IAE, metrics.setpoint.TV, metrics.disturbance.TV),
+        *(100 * metrics.setpoint.overshoot, metrics.setpoint.settling_time, metrics.disturbance.settling_time),
+    )
+    return dict(zip(LABELS, [*found, *map(number, judgement)], strict=True))
+
+
+def _pin(pins: tuple[Tuning, ...], tuning: Tuning, tau_c: float) -> None:
+    present = Tuning(tuning.order, tuning.h, tau_c, tuning.b, tuning.filter, tuning.rules)
+    if present not in pins:
+        state.change(pins=(*pins, present))

@@ -1,0 +1,139 @@
+"""What the user decides on the tuning page. Each function shows its widget; the design in `state` is the result."""
+
+import math
+
+import streamlit as st
+
+from pages.common.parts.scales import nearest
+from pages.common.parts.settings_text import STRUCTURE, as_text
+from pages.common.session import state
+from pages.common.session.design import KINDS
+from pages.common.studies.single import Study
+from simc_core.checks import LONGEST_TIME
+from simc_core.controllers.forms import FORMS, IController
+from simc_core.errors import FormError
+from simc_core.notation import latex, number
+from simc_core.plants.models import Model, UnstableDelay
+from simc_core.rules.simc import tau_c_presets
+
+STEPS_PER_DECADE = 20
+SHORTEST, LONGEST = -1, 2  # decades of tau_c/theta on the slider
+STYLE = """<style>
+.st-key-presets {display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem}
+.st-key-presets button {min-height: 2rem; padding: 0 0.5rem}
+@media (max-width: 640px) { /* what moves comes first, what is set once below it */
+  .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
+}
+</style>"""
+
+
+def tau_c_control(model: Model, tau_c: float, slider: bool = True) -> None:
+    """tau_c: slider, logarithmic and relative to theta, exact number beside it, presets below.
+
+    slider=False: without it, where the live instrument has one.
+    """
+    st.html(STYLE)
+    if isinstance(model, UnstableDelay):
+        st.markdown(f"$\\tau_c = \\theta$ = **{number(tau_c)}**")
+        st.caption("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24].")
+        return
+    place = st.container()
+    if slider:
+        slide, place = st.columns([5, 3], vertical_alignment="bottom", gap="small")
+        with slide:
+            _slider(model, tau_c)
+    place.number_input(
+        "exactly" if slider else r"$\tau_c$ exactly",
+        min_value=1 / LONGEST_TIME,
+        max_value=LONGEST_TIME,
+        step=None,
+        format="%.6g",
+        **state.bound("tau_c", show=lambda value: float(value or tau_c), key="tau_c_exact"),
+    )
+    _presets(model, tau_c)
+
+
+def _slider(model: Model, tau_c: float) -> None:
+    scale, unit = (model.theta, "θ") if model.theta else (tau_c_presets_or_one(model), "")
+    ratios = [10 ** (i / STEPS_PER_DECADE) for i in range(SHORTEST * STEPS_PER_DECADE, LONGEST * STEPS_PER_DECADE + 1)]
+    st.select_slider(
+        r"Speed: $\tau_c$",
+        ratios,
+        format_func=lambda ratio: f"{number(ratio, 3)} {unit}".strip(),
+        help=r"The closed-loop time constant $\tau_c$ is the one tuning knob of SIMC: small is fast, large is robust "
+        r"and gentle on the input [SK03 sect. 3.3]. $\tau_c = \theta$ is tight.",
+        **state.bound(
+            "tau_c",
+            show=lambda value: nearest(ratios, (value or tau_c) / scale),
+            read=lambda ratio: ratio * scale,
+            key="tau_c_slider",
+        ),
+    )
+
+
+def tau_c_presets_or_one(model: Model) -> float:
+    """A time to measure tau_c by where the model has no dead time."""
+    return next(iter(tau_c_presets(model).values()), 1.0)
+
+
+def structure() -> None:
+    """PI or PID, set-point weight, derivative filter."""
+    row = st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall", key="structure")
+    row.segmented_control(
+        "Controller",
+        KINDS,
+        help="PI takes the first-order model, PID the second-order one.",
+        **state.bound("order", show=lambda order: KINDS[order - 1], read=lambda shown: KINDS.index(shown) + 1),
+    )
+    row.number_input(
+        "$b$",
+        0.0,
+        2.0,
+        step=0.1,
+        width=54,
+        format="%.3g",
+        help="Set-point weight: the proportional action sees $b\\,r - y$. Less than 1 softens set-point steps; "
+        "stability and load response stay as they are.",
+        **state.bound("b"),
+    )
+    row.number_input(
+        r"$\tau_F/\tau_D$",
+        0.0,
+        10.0,
+        step=0.01,
+        width=60,
+        format="%.3g",
+        help="Derivative filter, 0 for none. It acts inside the loop: margins are computed with it.",
+        **state.bound("filter"),
+    )
+
+
+def settings(study: Study) -> None:
+    """The controller in the form chosen, typeset, and as text to copy with all its digits."""
+    form = state.value("form")
+    st.segmented_control("Form", FORMS, label_visibility="collapsed", **state.bound("form"))
+    try:
+        shown = study.controller.in_form(form)
+    except FormError as error:
+        st.info(f"No {form} form: {error}")
+        return
+    structure = r"\frac{K_I}{s}" if isinstance(shown, IController) else STRUCTURE[form]
+    st.markdown(f"$C(s) = {structure}$")
+    st.markdown(f"$\\phantom{{C(s)}} = {latex(shown)}$")
+    st.code(as_text(study.controller, form), language=None)
+
+
+def _presets(model: Model, tau_c: float) -> None:
+    presets = tau_c_presets(model)
+    with st.container(key="presets"):
+        for name, value in presets.items():
+            chosen = math.isclose(value, tau_c, rel_tol=1e-9)
+            st.button(
+                name,
+                key=f"preset_{name}",
+                width="stretch",
+                help=f"tau_c = {number(value)}",
+                type="primary" if chosen else "secondary",
+                on_click=state.change,
+                kwargs={"tau_c": None if name == "tight" else value},
+            )
