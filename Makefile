@@ -12,11 +12,13 @@ run: $(VENV)/run.stamp
 
 # Browser tests last: they are the slowest, and the others say more exactly what broke.
 test: $(VENV)/dev.stamp lint chromium
-	$(BIN)/python -m pytest tests/test_architecture.py tests/core tests/figures tests/pages tests/browser
+	$(BIN)/python -m pytest tests --ignore=tests/browser -n auto
+	$(BIN)/python -m pytest tests/browser
 
 lint: $(VENV)/dev.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports --no-cache
 
 bench: $(VENV)/dev.stamp
 	$(BIN)/python -m benchmarks

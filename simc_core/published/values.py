@@ -1,6 +1,6 @@
 """Numbers computed once outside this program, with mpmath in 60 digits or more, by methods that share no code with it.
 
-tests/core/high_precision.py holds the methods, tests/core/test_references.py computes every number here again.
+tests/oracles/high_precision.py holds the methods, tests/published/test_checks.py computes every number here again.
 """
 
 from dataclasses import dataclass

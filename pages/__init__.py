@@ -1,0 +1,1 @@
+"""The pages: one thin script each; what they share lies in common."""

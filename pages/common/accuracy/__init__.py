@@ -1,0 +1,1 @@
+"""The accuracy page: published numbers beside ours."""

@@ -1,0 +1,1 @@
+"""The cascade page: its diagram, widgets, figures, guards and views."""

@@ -1,0 +1,1 @@
+"""The half-rule page: the steps of a reduction."""

@@ -1,0 +1,1 @@
+"""What both instruments are made of: panels, sliders, the strip, tables in the browser, packing."""

@@ -1,0 +1,1 @@
+"""The live instrument of the tuning page."""

@@ -1,0 +1,1 @@
+"""The plant page: entry and views of a plant."""

@@ -1,0 +1,1 @@
+"""Round every page: the router, the line on top, the sidebar."""

@@ -1,0 +1,1 @@
+"""What is shown of a design, as pure records."""

@@ -1,0 +1,1 @@
+"""The tuning page: its widgets, figures, guards and views."""
