@@ -14,7 +14,8 @@ tau_D' = tau_D/f. Back only if tau_I' >= 4 tau_D': f = (1 + sqrt(1 - 4 tau_D'/ta
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import ClassVar
 
 import numpy as np
@@ -66,6 +67,29 @@ class _Forms:
         except FormError:
             return False
         return True
+
+    def rescaled(self, time: Fraction = Fraction(1), gain: float = 1.0) -> "Controller":
+        """The same controller in other units.
+
+        Parameters
+        ----------
+        time : Fraction
+            Times are multiplied by it: 1/60 from seconds to minutes.
+        gain : float
+            The gain of the controller is multiplied by it: 1/g for a plant whose gain is multiplied by g.
+
+        Returns
+        -------
+        Controller
+            In the same form, weights unchanged.
+        """
+        power = {"Kc": 0, "Kp": 0, "tau_I": 1, "tau_D": 1, "tau_F": 1, "Ki": -1, "K_I": -1, "Kd": 1}
+        values = {}
+        for name in (*self.SETTINGS, *(("tau_F",) if hasattr(self, "tau_F") else ())):
+            value = getattr(self, name) * (1.0 if name.startswith("tau") else gain)
+            ratio = time ** power[name]
+            values[name] = value * ratio.numerator / ratio.denominator
+        return replace(self, **values)
 
     def response(self, s) -> np.ndarray:
         """C(s) of the feedback path, from -y to u; any shape of s."""

@@ -8,6 +8,7 @@ T < 0 is a zero in the right half plane (inverse response), tau < 0 an unstable 
 """
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
@@ -74,6 +75,38 @@ class Plant:
         """G(s), complex, any shape of s; exact dead time."""
         return self.factored(s)
 
+    def rescaled(self, time: Fraction = Fraction(1), gain: float = 1.0) -> "Plant":
+        """The same plant in other units.
+
+        Parameters
+        ----------
+        time : Fraction
+            Times are multiplied by it: 1/60 from seconds to minutes. A ratio of whole numbers, so that 180 s are 3 min
+            and 180 s again to the last bit.
+        gain : float
+            k is multiplied by it, besides what the integrators do: k in 1/s is 60 k in 1/min.
+
+        Returns
+        -------
+        Plant
+            k gain/time^n, and theta and all time constants times `time`.
+
+        Examples
+        --------
+        >>> Plant(2.0, 20.0, (180.0,)).rescaled(time=Fraction(1, 60)).lags
+        (3.0,)
+        """
+        n = self.integrators
+        return Plant(
+            self.k * gain * time.denominator**n / time.numerator**n,
+            scaled(self.theta, time),
+            tuple(scaled(tau, time) for tau in self.lags),
+            tuple(scaled(tau, time) for tau in self.leads),
+            n,
+            tuple((scaled(tau, time), zeta) for tau, zeta in self.lag_pairs),
+            tuple((scaled(tau, time), zeta) for tau, zeta in self.lead_pairs),
+        )
+
     @property
     def factored(self) -> Factored:
         """The plant as the engine sees it."""
@@ -137,6 +170,11 @@ class Plant:
         if self.theta > slowest:
             return "stable, delay dominant"
         return "stable, lag dominant" if slowest >= 4 * self.theta else "stable, balanced"
+
+
+def scaled(time: float, ratio: Fraction) -> float:
+    """A time in another unit, rounded once where `ratio` or its inverse is whole."""
+    return time * ratio.numerator / ratio.denominator
 
 
 def _times(name: str, values) -> tuple[float, ...]:
