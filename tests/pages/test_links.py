@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
@@ -9,7 +10,8 @@ from hypothesis import strategies as st
 
 from pages.common.session import links, project
 from pages.common.session.design import Actuator, Cascade, Design, Tuning
-from simc_core import Plant
+from pages.common.session.sheet import TIME_UNITS, Sheet
+from simc_core import IController, IdealPid, ParallelPid, Plant, SeriesPid
 
 times = st.floats(1e-3, 1e3)
 plants = st.builds(
@@ -28,6 +30,28 @@ tunings = st.builds(
     b=st.floats(0, 2),
     filter=st.floats(0, 10),
     rules=st.sampled_from(["2003", "1998"]),
+    speed=st.sampled_from(["", "1.5theta", "2theta", "moderate"]),
+)
+gains = st.floats(1e-3, 1e3)
+lines = st.text(st.characters(categories=("L", "N", "P", "S", "Zs")), max_size=16).map(str.strip)
+weights = {"tau_F": st.just(0.0) | times, "b": st.floats(0, 2), "c": st.floats(0, 2)}
+standard = {"Kc": gains, "tau_I": times | st.just(math.inf), "tau_D": times, **weights}
+settings_ = st.one_of(
+    st.builds(SeriesPid, **standard),
+    st.builds(IdealPid, **standard),
+    st.builds(ParallelPid, Kp=gains, Ki=gains, Kd=gains, **weights),
+    st.builds(IController, gains),
+)
+sheets = st.builds(
+    Sheet,
+    tag=lines,
+    note=lines,
+    time_unit=st.sampled_from(["", *TIME_UNITS]),
+    PV=lines,
+    PV_unit=lines,
+    PV_low=st.none() | st.floats(-1e3, -1),
+    PV_high=st.none() | st.floats(1, 1e3),
+    PV_now=st.none() | st.floats(-1, 1),
 )
 peaks = st.none() | st.floats(1.05, 10)
 kinds = st.sampled_from(["PI", "PID"])
@@ -63,10 +87,13 @@ designs = st.builds(
     plant=plants,
     tuning=tunings,
     form=st.sampled_from(["series", "ideal", "parallel"]),
-    pins=st.lists(tunings, max_size=4).map(tuple),
+    own=st.none() | settings_,
+    now=st.none() | settings_,
+    pins=st.lists(tunings | settings_, max_size=4).map(tuple),
+    sheet=sheets,
     cascade=cascades,
     actuator=actuators,
-)
+).map(lambda design: replace(design, source="simc" if design.own is None else "own"))
 
 
 @settings(max_examples=50, deadline=None)
@@ -104,7 +131,14 @@ def test_the_address_of_the_default_is_short():
         ("plant", "s", ""),
         ("plant", "2/(10s 1)", ""),  # a plus that was not written %2B arrives as a blank
         ("form", "PID", "series, ideal, parallel"),
-        ("pins", "1~2", "6 values"),
+        ("speed", "2 furlongs", "1.5theta"),
+        ("own", "series~1~2", "6 values"),
+        ("own", "zigzag~1~2", "series, ideal, parallel, I"),
+        ("controller", "own", "my settings"),
+        ("unit", "fortnight", "s, min, h, ms"),
+        ("tag", "T" * 41, "40 characters"),
+        ("PV_low", "a lot", "number"),
+        ("pins", "1~2", "7 values"),
         ("pins", "!".join(["1~0~2~1~0~2003"] * 5), "at most 4"),
         ("Ms_inner", "0.5", ">= 1.05"),
         ("u_min", "0.5", "u_min <= 0"),

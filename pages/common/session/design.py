@@ -4,17 +4,23 @@ Pure Python, no streamlit. links.py writes a Design as an address, project.py as
 """
 
 import math
-from dataclasses import dataclass, field
+import re
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 
+from pages.common.session.sheet import Sheet, ratio
 from simc_core import Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
-from simc_core.controllers.forms import FORMS
+from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
 
 KINDS = ("PI", "PID")
 METHODS = ("simc", "synthesis")
 FILTERS = ("N", "zero")
 RULES = ("2003", "1998")
+SOURCES = ("simc", "own")
+TIMES_THETA = re.compile(r"(\d{1,4}(?:\.\d{1,6})?)theta")
+WORDS = ("aggressive", "moderate", "conservative")  # of Arbogast, Cooper and Rice, see tau_c_presets
 MOST_PINS = 4
 LOWEST_N, HIGHEST_N = 0.1, 1000.0
 
@@ -24,7 +30,8 @@ class Tuning:
     """How a controller is made from the plant.
 
     order: of the reduced model; 1 gives a PI, 2 a PID controller.   h: sampling period, 0 if continuous.
-    tau_c: closed-loop time constant, None for tight, which is the model's own theta.
+    speed: tau_c as a choice that follows the plant, "1.5theta" or one of WORDS; "" for tight, the model's own theta.
+    tau_c: closed-loop time constant as a number, which goes before speed; None for none.
     b: set-point weight.   filter: tau_F/tau_D, 0 for no filter.   rules: of the reduction, [SK03] or [SK98].
     """
 
@@ -34,9 +41,13 @@ class Tuning:
     b: float = 1.0
     filter: float = 0.0
     rules: str = "2003"
+    speed: str = ""
 
     def __post_init__(self):
         put = object.__setattr__
+        if self.speed and self.speed not in WORDS and not _multiple(self.speed):
+            words = ", ".join(WORDS)
+            raise InvalidParameter(f"speed must be one of {words} or like 1.5theta, got {str(self.speed)[:40]}")
         put(self, "order", checks.whole("order", self.order, 1, 2))
         put(self, "h", checks.optional_time("h", self.h))
         if self.tau_c is not None:
@@ -49,6 +60,11 @@ class Tuning:
     def kind(self) -> str:
         """PI or PID, which follows from the order of the model."""
         return KINDS[self.order - 1]
+
+    @property
+    def times_theta(self) -> float | None:
+        """The multiple of theta that tau_c is to be, None where the choice is another."""
+        return None if self.tau_c is not None else _multiple(self.speed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,18 +160,70 @@ class Cascade:
 
 @dataclass(frozen=True, slots=True)
 class Design:
-    """Everything a link or a project file holds. pins: tunings set aside to compare with the present one."""
+    """Everything a link or a project file holds.
+
+    source: where the controller comes from, "simc" by tuning, or "own", the settings in `own`.
+    own: my settings, None until there are any.   now: what is in the plant now, the baseline; None where not told.
+    pins: tunings and settings set aside to compare with the present one.
+    """
 
     plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
     tuning: Tuning = field(default_factory=Tuning)
     form: str = "series"
-    pins: tuple[Tuning, ...] = ()
+    source: str = "simc"
+    own: Controller | None = None
+    now: Controller | None = None
+    pins: tuple[Tuning | Controller, ...] = ()
+    sheet: Sheet = field(default_factory=Sheet)
     cascade: Cascade = field(default_factory=Cascade)
     actuator: Actuator = field(default_factory=Actuator)
 
     def __post_init__(self):
         one_of("form", self.form, FORMS)
+        one_of("source", self.source, SOURCES)
+        if self.source == "own" and self.own is None:
+            raise InvalidParameter("own must be given where the controller is my settings, got nothing")
         object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
+
+
+def in_time_unit(design: Design, unit: str) -> Design:
+    """The same design with its times in another unit: plant, controllers, cascade, sampling, everything.
+
+    Where the unit had no name so far, this names it and converts nothing.
+    """
+    time = ratio(design.sheet.time_unit, unit)
+    if time == 1:
+        return replace(design, sheet=replace(design.sheet, time_unit=unit))
+    return replace(
+        design,
+        sheet=replace(design.sheet, time_unit=unit),
+        plant=design.plant.rescaled(time),
+        tuning=_in_time(design.tuning, time),
+        own=None if design.own is None else design.own.rescaled(time),
+        now=None if design.now is None else design.now.rescaled(time),
+        pins=tuple(_in_time(pin, time) if isinstance(pin, Tuning) else pin.rescaled(time) for pin in design.pins),
+        actuator=_in_time(design.actuator, time),
+        cascade=replace(
+            _in_time(design.cascade, time),
+            primary=design.cascade.primary.rescaled(time),
+            secondary=design.cascade.secondary.rescaled(time),
+        ),
+    )
+
+
+TIMES = ("tau_c", "h", "tracking_time", "tau_c_inner", "tau_c_outer")
+
+
+def _in_time(record, time: Fraction):
+    """The record with those of its fields that are times multiplied."""
+    given = {name: getattr(record, name) for name in TIMES if getattr(record, name, None)}
+    return replace(record, **{name: value * time.numerator / time.denominator for name, value in given.items()})
+
+
+def _multiple(speed: str) -> float | None:
+    found = TIMES_THETA.fullmatch(speed)
+    value = float(found[1]) if found else 0.0
+    return value if 0.01 <= value <= 1000 else None
 
 
 def one_of(name: str, value, choices: tuple[str, ...]) -> str:

@@ -1,7 +1,9 @@
 """A Design as query parameters and back. Pure: no streamlit, so that it can be tested alone.
 
-    plant, order, h, tau_c, b, filter, rules, form   the design itself; from h on only where not the default
-    pins                                             order~h~tau_c~b~filter~rules, several separated by !
+    plant, order, h, tau_c, b, filter, rules, speed, form   the design itself; from h on only where not the default
+    own, now, controller                             my settings, those in the plant now, which of them is judged
+    pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
+    tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, method, inner, ...                       the cascade, only where it is not the default
     u_min, u_max, T_t, noise, seed, sampling, r, d   the loop as built, only where it is not the default
 
@@ -15,11 +17,12 @@ from urllib.parse import quote, urlencode
 
 from pages.common.session.design import Design, Tuning
 from simc_core import parse_plant
+from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
 from simc_core.notation import plain
 
 LONGEST_VALUE = 2000  # characters of one parameter; a plant of 40 poles needs fewer
-TUNING_FIELDS = ("order", "h", "tau_c", "b", "filter", "rules")
+TUNING_FIELDS = ("order", "h", "tau_c", "b", "filter", "rules", "speed")
 CASCADE_FIELDS = {
     "Ga": "primary",
     "Gb": "secondary",
@@ -45,7 +48,20 @@ ACTUATOR_FIELDS = {
     "r": "setpoint",
     "d": "disturbance",
 }
-TEXTS = ("rules", "form", "method", "inner", "outer", "filter_outer")
+SHEET_FIELDS = {
+    "tag": "tag",
+    "note": "note",
+    "unit": "time_unit",
+    **{f"{signal}{end}": f"{signal}{end}" for signal in ("PV", "OP") for end in ("", "_unit", "_low", "_high", "_now")},
+}
+DESIGN_FIELDS = {"plant": "plant", "form": "form", "controller": "source", "own": "own", "now": "now", "pins": "pins"}
+SETTINGS = ("own", "now")
+FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "I": IController}
+TEXTS = (
+    *("rules", "form", "speed", "controller"),
+    *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
+    *("method", "inner", "outer", "filter_outer"),
+)
 PLANTS = ("plant", "Ga", "Gb")
 ALWAYS = ("plant", "order")
 
@@ -80,7 +96,7 @@ def decode(parameters: Mapping[str, str]) -> tuple[Design, list[Ignored]]:
     Parameters are taken one by one: a bad one leaves the default and does not spoil the others.
     """
     design, ignored = Design(), []
-    for name, value in parameters.items():
+    for name, value in sorted(parameters.items(), key=lambda item: item[0] not in SETTINGS):  # which may then be chosen
         try:
             design = _changed(design, name, value)
         except SimcError as error:
@@ -110,6 +126,9 @@ def _flat(design: Design) -> dict[str, str]:
     flat = {"plant": plain(design.plant)}
     flat |= {name: _text(name, getattr(design.tuning, name)) for name in TUNING_FIELDS}
     flat |= {"form": design.form, "pins": "!".join(map(_pin_text, design.pins))}
+    flat |= {name: settings_text(getattr(design, name)) for name in SETTINGS} | {"controller": design.source}
+    for name, field in SHEET_FIELDS.items():
+        flat[name] = _text(name, getattr(design.sheet, field))
     for name, field in CASCADE_FIELDS.items():
         flat[name] = _text(name, getattr(design.cascade, field))
     for name, field in ACTUATOR_FIELDS.items():
@@ -122,8 +141,10 @@ def _changed(design: Design, name: str, text: str) -> Design:
         raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
     if name == "pins":
         return replace(design, pins=tuple(_pin(pin) for pin in text.split("!")))
-    if name in ("plant", "form"):
-        return replace(design, **{name: _read(name, text)})
+    if name in DESIGN_FIELDS:
+        return replace(design, **{DESIGN_FIELDS[name]: _read(name, text)})
+    if name in SHEET_FIELDS:
+        return replace(design, sheet=replace(design.sheet, **{SHEET_FIELDS[name]: _read(name, text)}))
     if name in TUNING_FIELDS:
         return replace(design, tuning=replace(design.tuning, **{name: _read(name, text)}))
     if name in CASCADE_FIELDS:
@@ -144,19 +165,48 @@ def _read(name: str, text: str):
         return text
     if name in PLANTS:
         return parse_plant(text)
+    if name in SETTINGS:
+        return settings_of(text)
     try:
         return float(text)
     except ValueError:
         raise SimcError("a number was expected") from None
 
 
-def _pin_text(pin: Tuning) -> str:
+def settings_text(controller: Controller | None) -> str:
+    """form~settings~tau_F~b~c; empty for None."""
+    if controller is None:
+        return ""
+    form = next(name for name, kind in FORM_NAMES.items() if isinstance(controller, kind))
+    values = list(controller.settings.values())
+    if not isinstance(controller, IController):
+        values += [controller.tau_F, controller.b, controller.c]
+    return "~".join([form, *map(number_text, values)])
+
+
+def settings_of(text: str) -> Controller:
+    """The controller of a text. Raises SimcError."""
+    form, *values = text.split("~")
+    if form not in FORM_NAMES:
+        raise SimcError(f"settings begin with one of {', '.join(FORM_NAMES)}, got {form[:20]}")
+    kind = FORM_NAMES[form]
+    wanted = len(kind.SETTINGS) + (0 if kind is IController else 3)
+    if len(values) != wanted:
+        raise SimcError(f"settings in {form} form have {wanted} values separated by ~, got {len(values)}")
+    return kind(*(_read("settings", value) for value in values))
+
+
+def _pin_text(pin: Tuning | Controller) -> str:
+    if not isinstance(pin, Tuning):
+        return settings_text(pin)
     return "~".join(_text(name, getattr(pin, name)) for name in TUNING_FIELDS)
 
 
-def _pin(text: str) -> Tuning:
+def _pin(text: str) -> Tuning | Controller:
     values = text.split("~")
-    if len(values) != len(TUNING_FIELDS):
+    if values[0] in FORM_NAMES:
+        return settings_of(text)
+    if len(values) not in (len(TUNING_FIELDS), len(TUNING_FIELDS) - 1):  # links of before have no speed
         raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, got {len(values)}")
-    given = dict(zip(TUNING_FIELDS, values, strict=True))
+    given = dict(zip(TUNING_FIELDS, values, strict=False))
     return Tuning(**{name: _read(name, value) for name, value in given.items() if value})

@@ -18,11 +18,17 @@ import streamlit as st
 
 from pages.common.session import links
 from pages.common.session.design import Cascade, Design, Tuning
-from pages.common.session.links import ACTUATOR_FIELDS, CASCADE_FIELDS, TUNING_FIELDS, Ignored
+from pages.common.session.links import (
+    ACTUATOR_FIELDS,
+    CASCADE_FIELDS,
+    DESIGN_FIELDS,
+    SHEET_FIELDS,
+    TUNING_FIELDS,
+    Ignored,
+)
 from simc_core import Plant
 
 ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
-OF_DESIGN = ("plant", "form", "pins")
 
 
 def begin() -> Design:
@@ -65,8 +71,10 @@ def change(**values) -> None:
     """
     design = design_now()
     for name, value in values.items():
-        if name in OF_DESIGN:
-            design = replace(design, **{name: value})
+        if name in DESIGN_FIELDS:
+            design = replace(design, **{DESIGN_FIELDS[name]: value})
+        elif name in SHEET_FIELDS:
+            design = replace(design, sheet=replace(design.sheet, **{SHEET_FIELDS[name]: value}))
         elif name in TUNING_FIELDS:
             design = replace(design, tuning=replace(design.tuning, **{name: value}))
         elif name in ACTUATOR_FIELDS:
@@ -85,8 +93,10 @@ def replace_design(design: Design) -> None:
 def value(name: str) -> Any:
     """A field by its name in links.py."""
     design = design_now()
-    if name in OF_DESIGN:
-        return getattr(design, name)
+    if name in DESIGN_FIELDS:
+        return getattr(design, DESIGN_FIELDS[name])
+    if name in SHEET_FIELDS:
+        return getattr(design.sheet, SHEET_FIELDS[name])
     if name in TUNING_FIELDS:
         return getattr(design.tuning, name)
     if name in ACTUATOR_FIELDS:

@@ -1,0 +1,62 @@
+"""The time unit of a loop: changing it converts everything and loses nothing."""
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pages.common.session.design import Design, Tuning, in_time_unit
+from pages.common.session.sheet import Sheet
+from pages.common.studies.single import study
+from simc_core import IdealPid, InvalidParameter, Plant, SeriesPid
+from tests.pages.test_links import designs
+
+HEATER = Design(Plant(2.2, 20.0, (180.0,)), own=IdealPid(1.2, 240.0), sheet=Sheet(time_unit="s"))
+
+
+def test_seconds_to_minutes_and_back_to_the_last_bit():
+    minutes = in_time_unit(HEATER, "min")
+    assert minutes.plant == Plant(2.2, 20.0 / 60.0, (3.0,))
+    assert minutes.own == IdealPid(1.2, 4.0)
+    assert in_time_unit(minutes, "s").plant.lags == (180.0,)
+
+
+def test_a_unit_named_for_the_first_time_converts_nothing():
+    unnamed = replace(HEATER, sheet=Sheet())
+    assert in_time_unit(unnamed, "min") == replace(unnamed, sheet=Sheet(time_unit="min"))
+
+
+@settings(max_examples=25, deadline=None)
+@given(designs, st.sampled_from(["s", "min", "h"]))
+def test_there_and_back_is_the_same_design(design, unit):
+    start = replace(design, sheet=replace(design.sheet, time_unit="s"))
+    back = in_time_unit(in_time_unit(start, unit), "s")
+    assert back.plant.lags == pytest.approx(start.plant.lags, rel=1e-15)
+    assert back.plant.k == pytest.approx(start.plant.k, rel=1e-14)
+    assert back.sheet == start.sheet
+
+
+def test_margins_do_not_know_the_unit_and_times_are_sixty_times_smaller():
+    level = Design(Plant(0.05, 2.0, integrators=1), Tuning(), sheet=Sheet(time_unit="s"))
+    seconds, minutes = (study(each.plant, each.tuning) for each in (level, in_time_unit(level, "min")))
+    assert minutes.margins.Ms == pytest.approx(seconds.margins.Ms, rel=1e-12)
+    assert minutes.controller.Kc == pytest.approx(seconds.controller.Kc, rel=1e-12)
+    assert 60 * minutes.controller.tau_I == pytest.approx(seconds.controller.tau_I, rel=1e-12)
+    assert 60 * minutes.margins.delay_margin == pytest.approx(seconds.margins.delay_margin, rel=1e-9)
+
+
+def test_per_cent_of_span():
+    assert Sheet(PV_low=0, PV_high=200, OP_low=0, OP_high=100).per_cent_of_span == 2.0
+    assert Sheet(PV_low=0, PV_high=200).per_cent_of_span is None
+
+
+def test_a_range_that_ends_before_it_begins_is_refused():
+    with pytest.raises(InvalidParameter, match="PV_high must be > PV_low = 100, got 20"):
+        Sheet(PV_low=100, PV_high=20)
+    with pytest.raises(InvalidParameter, match="OP_now must be within 0 to 100, got 145"):
+        Sheet(OP_low=0, OP_high=100, OP_now=145)
+
+
+def test_the_gain_of_a_controller_falls_as_that_of_the_plant_grows():
+    assert SeriesPid(2.0, 120.0, 30.0).rescaled(gain=0.5) == SeriesPid(1.0, 120.0, 30.0)
