@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from pages.common.session import links, project
 from pages.common.session.design import Actuator, Cascade, Design, Tuning
+from pages.common.session.loops import Entry, Loops
 from pages.common.session.sheet import TIME_UNITS, Sheet
 from simc_core import IController, IdealPid, ParallelPid, Plant, SeriesPid
 
@@ -105,7 +106,8 @@ def test_a_link_opens_the_very_same_design(design):
 @settings(max_examples=25, deadline=None)
 @given(designs)
 def test_a_project_file_opens_the_very_same_design(design):
-    assert project.load(project.dump(design).encode()) == (design, "")
+    loops = Loops((Entry(Design()), Entry(design)), 1)
+    assert project.load(project.dump(loops).encode()) == (loops, "")
 
 
 def test_complex_pairs_keep_fourteen_digits():
@@ -166,7 +168,7 @@ def test_nonsense_is_left_out_and_told(name, value, why):
 
 
 def good() -> dict:
-    return json.loads(project.dump(Design()))
+    return {"format": "simc-project", "version": 1, "design": links.encode(Design())}
 
 
 @pytest.mark.parametrize(
@@ -177,7 +179,10 @@ def good() -> dict:
         (b"[" * 100_000, "not JSON"),
         (b" " * 300_000, "at most"),
         (b"[1, 2]", "not a project file"),
-        (json.dumps(good() | {"version": 2}).encode(), "version must be 1, got 2"),
+        (json.dumps(good() | {"version": 3}).encode(), "version must be 1 or 2, got 3"),
+        (json.dumps(good() | {"version": 2, "loops": []}).encode(), "1 to 50 loops"),
+        (json.dumps(good() | {"version": 2, "loops": [good()], "current": 1}).encode(), "must be one of 1, got 2"),
+        (json.dumps(good() | {"version": 2, "loops": [good()], "current": "0"}).encode(), "place of a loop"),
         (json.dumps(good() | {"version": True}).encode(), "version must be 1"),
         (json.dumps(good() | {"design": {"order": "1"}}).encode(), "must hold a plant"),
         (json.dumps(good() | {"design": {"plant": 3}}).encode(), "object of texts"),
@@ -186,9 +191,14 @@ def good() -> dict:
     ],
 )
 def test_a_wrong_file_gives_no_design_and_the_reason(data, why):
-    design, reason = project.load(data)
-    assert design is None
+    loops, reason = project.load(data)
+    assert loops is None
     assert why in reason
+
+
+def test_a_file_of_version_1_holds_one_loop():
+    loops, reason = project.load(json.dumps(good()).encode())
+    assert (loops.design, len(loops.entries), reason) == (Design(), 1, "")
 
 
 def test_tight_is_written_as_nothing_and_infinity_is_not_a_number_here():

@@ -1,7 +1,8 @@
 """The design of this session: the only place for st.session_state and st.query_params.
 
-One Design is the truth. Widgets show it and write to it (`bound`); the address always shows it (`begin`).
-It survives page changes, and every page can be opened first or run alone, since defaults are inside.
+One list of loops is the truth, and one Design of it is in use. Widgets show it and write to it (`bound`); the address
+always shows it (`begin`). It survives page changes, and every page can be opened first or run alone, since defaults
+are inside.
 
     design = state.begin()                                at the top of a page; header.show does it
     order = st.segmented_control("Model", (1, 2), **state.bound("order"))
@@ -16,7 +17,7 @@ from typing import Any
 
 import streamlit as st
 
-from pages.common.session import links
+from pages.common.session import links, project
 from pages.common.session.design import Cascade, Design, Tuning
 from pages.common.session.links import (
     ACTUATOR_FIELDS,
@@ -26,6 +27,7 @@ from pages.common.session.links import (
     TUNING_FIELDS,
     Ignored,
 )
+from pages.common.session.loops import Loops
 from simc_core import Plant
 
 ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
@@ -36,17 +38,68 @@ def begin() -> Design:
     given = st.query_params.to_dict()
     if given and given != st.session_state.get("address") and not _late(given):
         design, ignored = links.decode(given)
-        st.session_state["design"] = design
+        _keep(loops().with_design(design))
         st.session_state["ignored"] = ignored
+        st.session_state.setdefault("opened", True)  # this visit began with a link
+    st.session_state.setdefault("opened", False)
     _show_in_address()
     return design_now()
 
 
 def design_now() -> Design:
-    """The whole design."""
-    if "design" not in st.session_state:
-        st.session_state["design"] = Design()
-    return st.session_state["design"]
+    """The whole design in use."""
+    return loops().design
+
+
+def loops() -> Loops:
+    """All loops of this session."""
+    if "loops" not in st.session_state:
+        st.session_state["loops"] = Loops()
+    return st.session_state["loops"]
+
+
+def take_loops(changed: Loops) -> None:
+    """Another list of loops, for example with another one in use; what pages remember of the last one is forgotten."""
+    if changed.entries[changed.current].id != loops().entries[loops().current].id:
+        for name in [name for name in st.session_state if str(name).startswith("memory_")]:
+            del st.session_state[name]
+    _keep(changed)
+    _show_in_address()
+
+
+def join_kept(text: str) -> None:
+    """The loops that the browser has kept from earlier visits, once a session; what cannot be read is left alone."""
+    if asked_browser():
+        return
+    st.session_state["kept_ids"] = frozenset()
+    kept, _ = project.load(text.encode())
+    if kept is not None:
+        st.session_state["kept_ids"] = kept.ids
+        take_loops(loops().joined(kept, st.session_state["opened"]))
+
+
+def asked_browser() -> bool:
+    """Whether the browser has told what it keeps."""
+    return "kept_ids" in st.session_state
+
+
+def to_keep() -> tuple[str, list[str]]:
+    """What the browser is to keep, as a project, and the ids that this session has had.
+
+    A loop that was only opened by a link, or is the one every visit begins with, is not kept before it is changed.
+    """
+    known = st.session_state["kept_ids"] | loops().ids
+    first = st.session_state.setdefault("first_seen", {})
+    for entry in loops().entries:
+        first.setdefault(entry.id, entry.design)
+    mine = tuple(e for e in loops().entries if e.id in st.session_state["kept_ids"] or e.design != first[e.id])
+    st.session_state["kept_ids"] |= {entry.id for entry in mine}
+    current = next((i for i, e in enumerate(mine) if e.id == loops().entries[loops().current].id), 0)
+    return (project.dump(Loops(mine, current)) if mine else ""), sorted(known)
+
+
+def _keep(changed: Loops) -> None:
+    st.session_state["loops"] = changed
 
 
 def plant() -> Plant:
@@ -86,7 +139,7 @@ def change(**values) -> None:
 
 def replace_design(design: Design) -> None:
     """Take another design, for example from a project file."""
-    st.session_state["design"] = design
+    _keep(loops().with_design(design))
     _show_in_address()
 
 

@@ -6,6 +6,7 @@ import streamlit as st
 
 from pages.common.session import project, state
 from pages.common.session.design import Design
+from pages.common.shell.loops_menu import loops_menu
 from simc_core.notation import latex
 from simc_core.plants.plant import Plant
 
@@ -54,6 +55,7 @@ def show(place: str) -> Design:
             chain(place)
     _notices()
     with st.sidebar:
+        loops_menu()
         _take_along()
     return design
 
@@ -91,7 +93,7 @@ def _notices() -> None:
 def _take_along() -> None:
     st.caption("Link to this page and design")
     st.code(state.address(), language=None)
-    content = partial(project.dump, state.design_now())  # made when asked for: nothing is stored that runs replace
+    content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
     upload = st.file_uploader("Open project", type="json", key="project_file")
     if upload is not None:
@@ -102,10 +104,11 @@ def _open(upload) -> None:
     """Take the design of a file, once; a wrong file changes nothing and says why."""
     if state.memory("opened", lambda: None) != upload.file_id:
         state.remember("opened", upload.file_id)
-        design, why = project.load(upload.getvalue())
+        loops, why = project.load(upload.getvalue())
         state.remember("refused", why)
-        if design is not None:
-            state.replace_design(design)
+        if loops is not None:
+            state.take_loops(loops)
+            state.remember("opened", upload.file_id)
             st.rerun()
     why = state.memory("refused", lambda: "")
     if why:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pages.common.session.design import Tuning
+from pages.common.session.design import Design, Tuning
 from simc_core.controllers.forms import Controller
 from simc_core.errors import NotStable
 from simc_core.loops.frequency_grid import omega_grid
@@ -25,22 +25,23 @@ UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Study:
-    """A tuning, the controller it leads to, and what the loop round the FULL plant does.
+    """A controller, how it came about, and what the loop around the FULL plant does.
 
+    reduction, tau_c: None where the controller is not made by SIMC from a model.
     performance: None where the loop is not stable; all nan where it is too near its limit to come to rest.
     """
 
     tuning: Tuning
-    reduction: Reduction
-    tau_c: float
+    reduction: Reduction | None
+    tau_c: float | None
     loop: Loop
     margins: Margins
     performance: Performance | None
 
     @property
-    def model(self) -> Model:
+    def model(self) -> Model | None:
         """The reduced model."""
-        return self.reduction.model
+        return self.reduction and self.reduction.model
 
     @property
     def controller(self) -> Controller:
@@ -62,6 +63,20 @@ def study(plant: Plant, tuning: Tuning) -> Study:
     return Study(tuning, reduction, tau_c, loop, judged, _measured(loop) if judged.stable else None)
 
 
+def present_study(design: Design) -> Study:
+    """The controller the design has chosen: by SIMC, or my settings. Raises SimcError as study does."""
+    if design.source == "own":
+        return study_of_settings(design.plant, design.own)
+    return study(design.plant, design.tuning)
+
+
+def study_of_settings(plant: Plant, controller: Controller) -> Study:
+    """Settings that were typed, around this plant: no model and no rule stand behind them."""
+    loop = Loop(plant, controller)
+    judged = margins(loop)
+    return Study(Tuning(), None, None, loop, judged, _measured(loop) if judged.stable else None)
+
+
 def _measured(loop: Loop) -> Performance:
     try:
         return performance(loop)
@@ -70,13 +85,19 @@ def _measured(loop: Loop) -> Performance:
 
 
 def tau_c_in_use(model: Model, tuning: Tuning) -> float:
-    """tau_c as decided; else tight; for a model without dead time, the first preset there is.
+    """tau_c as decided, as a number or as a choice; else tight; without dead time, the first preset there is.
 
     The rule of an unstable pole knows tight alone.
     """
-    if tuning.tau_c is not None and not isinstance(model, UnstableDelay):
+    presets = tau_c_presets(model)
+    usual = next(iter(presets.values()), 1.0)
+    if isinstance(model, UnstableDelay):
+        return usual
+    if tuning.tau_c is not None:
         return tuning.tau_c
-    return next(iter(tau_c_presets(model).values()), 1.0)
+    if tuning.times_theta and model.theta:
+        return tuning.times_theta * model.theta
+    return presets.get(tuning.speed, usual)
 
 
 def time_responses(studies: list[Study]) -> list[TimeResponse]:

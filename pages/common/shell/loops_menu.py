@@ -1,0 +1,59 @@
+"""The list of loops in the sidebar, and the browser's own storage, where they stay from one visit to the next."""
+
+from pathlib import Path
+
+import streamlit as st
+
+from pages.common.session import state
+from pages.common.session.design import Design
+from pages.common.session.loops import MOST_LOOPS
+
+_storage = st.components.v2.component(
+    "simc_storage",
+    html="<span></span>",
+    js=Path(__file__).with_name("storage.js").read_text(encoding="utf-8"),
+)
+
+
+def loops_menu() -> None:
+    """Choose a loop, begin another one, duplicate or delete the one in use."""
+    loops = state.loops()
+    state.set_widget("loop", loops.current)
+    st.selectbox("Loop", range(len(loops.entries)), format_func=loops.names.__getitem__, key="loop", on_change=_switch)
+    full = len(loops.entries) >= MOST_LOOPS
+    with st.container(horizontal=True, gap="xsmall"):
+        st.button("New", key="loop_new", disabled=full, help="Begin another loop.", on_click=_add)
+        st.button(
+            "Duplicate", key="loop_duplicate", disabled=full, help="A copy of this loop to change.", on_click=_duplicate
+        )
+        st.button("Delete", key="loop_delete", help="Delete this loop from the list.", on_click=_delete)
+    keep()
+
+
+def keep() -> None:
+    """Ask the browser once what it keeps; after that tell it."""
+    if not state.asked_browser():
+        _storage(key="storage", data={"ask": True}, on_kept_change=_take_kept)
+        return
+    mine, known = state.to_keep()
+    _storage(key="storage", data={"mine": mine, "known": known}, on_kept_change=_take_kept)
+
+
+def _take_kept() -> None:
+    state.join_kept(str(state.widget("storage")["kept"]["text"]))
+
+
+def _switch() -> None:
+    state.take_loops(state.loops().switched(state.widget("loop")))
+
+
+def _add() -> None:
+    state.take_loops(state.loops().added(Design()))
+
+
+def _duplicate() -> None:
+    state.take_loops(state.loops().duplicated())
+
+
+def _delete() -> None:
+    state.take_loops(state.loops().removed())

@@ -1,0 +1,44 @@
+"""What a change of settings brings and what it costs, in one sentence."""
+
+import math
+
+from simc_core.metrics.performance import Performance
+from simc_core.notation import number
+from simc_core.sensitivity.margins import Margins
+
+SAME = 0.02  # relative: a change that nobody would see
+DIGITS = 3
+
+
+def what_changes(before: tuple[Margins, Performance | None], after: tuple[Margins, Performance | None]) -> str:
+    """The change from the settings in the plant now to those of a design.
+
+    Parameters
+    ----------
+    before, after : tuple of Margins and Performance
+        Of the two loops around the same plant; the performance is None where the loop is not stable.
+
+    Returns
+    -------
+    str
+        For instance "Load IAE 2.6 times smaller, set-point IAE 1.9 times smaller; Ms 1.29 → 1.60."
+    """
+    (old, was), (new, will) = before, after
+    if not new.stable:
+        return "With the new settings the loop is not stable" + ("; now it is." if old.stable else ", nor is it now.")
+    if not old.stable:
+        return f"Now the loop is not stable; with the new settings it is, with Ms = {number(new.Ms, DIGITS)}."
+    parts = [
+        _times("Load IAE", was.disturbance.IAE, will.disturbance.IAE),
+        _times("set-point IAE", was.setpoint.IAE, will.setpoint.IAE),
+    ]
+    found = ", ".join(part for part in parts if part) or "Integrals of the error cannot be compared"
+    return f"{found}; Ms {number(old.Ms, DIGITS)} → {number(new.Ms, DIGITS)}."
+
+
+def _times(name: str, old: float, new: float) -> str:
+    if not (math.isfinite(old) and math.isfinite(new) and old > 0 and new > 0):
+        return ""
+    if abs(old / new - 1) < SAME:
+        return f"{name} as before"
+    return f"{name} {number(max(old / new, new / old), 2)} times {'smaller' if new < old else 'larger'}"

@@ -1,0 +1,53 @@
+"""Several loops: new, duplicate, switch, delete; nothing of one leaks into the next; what a browser keeps is joined."""
+
+from dataclasses import replace
+
+import pytest
+
+from pages.common.session.design import Design, Tuning
+from pages.common.session.loops import MOST_LOOPS, Entry, Loops
+from pages.common.session.sheet import Sheet
+from simc_core import InvalidParameter, Plant
+from tests.pages.tools import address, run_page
+
+HEATER = Design(Plant(2.2, 20.0, (180.0,)), Tuning(speed="1.5theta"), sheet=Sheet(tag="TIC-101", time_unit="s"))
+LEVEL = Design(Plant(0.05, 2.0, integrators=1), sheet=Sheet(tag="LIC-7"))
+
+
+def test_new_duplicate_switch_and_delete():
+    loops = Loops((Entry(HEATER),)).added(LEVEL)
+    assert loops.design == LEVEL
+    assert loops.names == ["TIC-101", "LIC-7"]
+    copy = loops.switched(0).duplicated()
+    assert copy.design == replace(HEATER, sheet=replace(HEATER.sheet, tag="TIC-101 (copy)"))
+    assert copy.removed().names == ["TIC-101", "LIC-7"]
+    assert len(copy.ids) == 3
+
+
+def test_the_last_loop_deleted_leaves_a_fresh_one():
+    assert Loops((Entry(HEATER),)).removed().design == Design()
+
+
+def test_more_loops_than_can_be_held_are_refused_with_the_way_out():
+    full = Loops(tuple(Entry(HEATER) for _ in range(MOST_LOOPS)))
+    with pytest.raises(InvalidParameter, match="delete one first"):
+        full.added(LEVEL)
+
+
+def test_loops_of_an_earlier_visit_come_back_and_a_link_is_one_more():
+    kept, fresh = Loops((Entry(HEATER), Entry(LEVEL)), 1), Loops()
+    assert fresh.joined(kept, opened=False) == kept
+    with_link = Loops((Entry(Design(Plant(1.0, 1.0, (3.0,)))),)).joined(kept, opened=True)
+    assert [entry.design.plant.lags for entry in with_link.entries] == [(180.0,), (), (3.0,)]
+    assert with_link.current == 2
+    assert Loops((Entry(HEATER),)).joined(kept, opened=True) == kept.switched(0)
+
+
+def test_the_page_begins_another_loop_with_nothing_of_the_last_one():
+    app = run_page("tuning", plant="2.2exp(-20s)/(180s+1)", tau_c="180", u_max="5")
+    next(button for button in app.button if button.label == "New").click().run()
+    assert not app.exception
+    assert "tau_c" not in address(app)
+    assert "u_max" not in address(app)
+    app.selectbox(key="loop").set_value(0).run()
+    assert address(app)["tau_c"] == "180"
