@@ -1,4 +1,6 @@
-"""Plants from the literature, each with its source. The ten cascade pairs are in cascade_examples.py.
+"""Plants to begin with: everyday processes with typical numbers, and those of the papers, each with its source.
+
+The ten cascade pairs are in cascade/pairs.py.
 
 [SK98] Skogestad 1998; [SK03] Skogestad, J. Process Control 13 (2003) 291; [V06] Viteckova 2006;
 [SG12] Skogestad and Grimholt 2012.
@@ -19,6 +21,41 @@ class Example:
     source: str
     note: str
 
+
+TYPICAL = "typical values"
+
+EVERYDAY = (
+    Example(
+        "temperature",
+        "Temperature, slow",
+        Plant(2.2, 20.0, (180.0,)),
+        TYPICAL,
+        "A heater: lag of minutes, dead time of seconds. Times in s.",
+    ),
+    Example("flow", "Flow", Plant(0.8, 0.5, (1.5, 0.3)), TYPICAL, "A valve and a short line. Times in s."),
+    Example("level", "Level", Plant(0.05, 2.0, integrators=1), TYPICAL, "A tank integrates. Times in s."),
+    Example(
+        "pressure",
+        "Pressure",
+        Plant(-1.5, 4.0, (20.0, 3.0)),
+        TYPICAL,
+        "Opening the vent lowers it: negative gain, direct action. Times in s.",
+    ),
+    Example(
+        "exchanger",
+        "Temperature behind a heat exchanger",
+        Plant(1.4, 12.0, (45.0, 20.0, 8.0)),
+        TYPICAL,
+        "Three lags and transport: here derivative action is worth a look. Times in s.",
+    ),
+    Example(
+        "drum",
+        "Drum level, shrink and swell",
+        Plant(0.02, 5.0, (8.0,), (-10.0,), 1),
+        TYPICAL,
+        "First it goes the wrong way: an inverse response on an integrator. Times in s.",
+    ),
+)
 
 SK03 = "[SK03] Table 4"
 

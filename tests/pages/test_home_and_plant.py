@@ -11,7 +11,7 @@ from pages.common.session import project
 from pages.common.session.design import Design, Tuning
 from pages.common.session.loops import Entry, Loops
 from simc_core import Plant, parse_plant
-from simc_core.plants.examples import EXAMPLES
+from simc_core.plants.examples import EVERYDAY, EXAMPLES
 from tests.pages.tools import address, run_app, run_page, texts
 
 PLACES = ("home", "plant", "half_rule", "tuning", "accuracy")
@@ -26,7 +26,9 @@ def test_every_page_runs_alone_and_keeps_the_link(place):
 
 def test_home_offers_every_example_and_takes_one():
     app = run_app()
-    assert len([button for button in app.button if button.key.startswith("example_")]) == len(EXAMPLES)
+    assert len([button for button in app.button if button.key and button.key.startswith("example_")]) == len(
+        EVERYDAY
+    ) + len(EXAMPLES)
     app.button(key=f"example_{EXAMPLES[1].key}").click().run()
     assert not app.exception
     assert parse_plant(address(app)["plant"]) == EXAMPLES[1].plant

@@ -6,7 +6,7 @@ import pytest
 
 from simc_core import half_rule, simc
 from simc_core.cascade.pairs import PAIRS
-from simc_core.plants.examples import EXAMPLES
+from simc_core.plants.examples import EVERYDAY, EXAMPLES
 from tests.oracles.published import PUBLISHED, plant_of
 
 BY_KEY = {example.key: example for example in EXAMPLES}
@@ -36,7 +36,7 @@ def test_plants_are_the_published_ones(key, row):
     assert BY_KEY[key].plant == plant_of(PUBLISHED[row].inputs)
 
 
-@pytest.mark.parametrize("example", EXAMPLES, ids=lambda example: example.key)
+@pytest.mark.parametrize("example", EVERYDAY + EXAMPLES, ids=lambda example: example.key)
 @pytest.mark.parametrize("order", [1, 2])
 def test_every_example_reduces_and_can_be_tuned(example, order):
     if (example.key, order) == ("SK98-2", 1):

@@ -2,20 +2,20 @@
 
 import streamlit as st
 
+from pages.common.parts.formula import fitted
 from simc_core import Plant
 from simc_core.figures import bode_figure, config, plant_step_figure, pole_zero_figure
-from simc_core.notation import latex, latex_number
+from simc_core.notation import latex_number
 from simc_core.plants.step_response import plant_step
 
 GAINS = ("k", "k'", "k''", "k'''", "k''''")
-SIZES = ((7, r"\tiny"), (5, r"\scriptsize"), (4, r"\footnotesize"))  # from this many different factors on
 SHOWN_ROOTS = 12
 HEIGHT, TALL = 280, 360  # px
 
 
 def facts(plant: Plant) -> None:
     """G(s) typeset, gain, dead time, poles and zeros."""
-    st.markdown(f"$\\displaystyle {size(plant)} G(s) = {latex(plant)}$")
+    st.markdown(f"$G(s) = {fitted(plant)}$")
     symbol = GAINS[plant.integrators]
     lines = [
         f"**{plant.kind.capitalize()}**",
@@ -24,12 +24,6 @@ def facts(plant: Plant) -> None:
         f"zeros {_roots(plant.zeros)}",
     ]
     st.markdown("  \n".join(lines))
-
-
-def size(plant: Plant) -> str:
-    """The LaTeX size at which the fraction of a long plant still fits a column."""
-    different = len({tuple(row) for row in plant.factored.den.tolist()})
-    return next((size for least, size in SIZES if different >= least), "")
 
 
 def figures(plant: Plant) -> None:

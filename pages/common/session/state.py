@@ -67,6 +67,26 @@ def take_loops(changed: Loops) -> None:
     _show_in_address()
 
 
+def begin_loop(plant: Plant) -> None:
+    """A fresh design for this plant: instead of the present loop where nobody has changed that, else as another loop.
+
+    Raises InvalidParameter where the list is full.
+    """
+    fresh = replace(Design(), plant=plant, form=value("form"))
+    take_loops(loops().with_design(fresh) if _untouched() else loops().added(fresh))
+    _first_seen()[loops().entries[loops().current].id] = fresh
+
+
+def _first_seen() -> dict[str, Design]:
+    """Each loop as this session first had it."""
+    return st.session_state.setdefault("first_seen", {})
+
+
+def _untouched() -> bool:
+    entry = loops().entries[loops().current]
+    return entry.design in (_first_seen().get(entry.id), Design())
+
+
 def join_kept(text: str) -> None:
     """The loops that the browser has kept from earlier visits, once a session; what cannot be read is left alone."""
     if asked_browser():
@@ -89,7 +109,7 @@ def to_keep() -> tuple[str, list[str]]:
     A loop that was only opened by a link, or is the one every visit begins with, is not kept before it is changed.
     """
     known = st.session_state["kept_ids"] | loops().ids
-    first = st.session_state.setdefault("first_seen", {})
+    first = _first_seen()
     for entry in loops().entries:
         first.setdefault(entry.id, entry.design)
     mine = tuple(e for e in loops().entries if e.id in st.session_state["kept_ids"] or e.design != first[e.id])

@@ -10,14 +10,13 @@ from pages.common.shell.loops_menu import loops_menu
 from simc_core.notation import latex
 from simc_core.plants.plant import Plant
 
-TITLES = {
-    "home": "Home",
-    "plant": "Plant",
-    "half_rule": "Half rule",
-    "tuning": "Tuning",
-    "cascade": "Cascade",
-    "accuracy": "Accuracy",
+GROUPS = {
+    "Start": {"home": "Home"},
+    "Model": {"plant": "Plant", "half_rule": "Half rule"},
+    "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
+    "Learn": {"accuracy": "Accuracy"},
 }
+TITLES = {name: title for group in GROUPS.values() for name, title in group.items()}
 # Less air round the page than Streamlit leaves: an instrument shows its dials. The line stays one line where it fits.
 STYLE = """<style>
 [data-testid="stMainBlockContainer"] {padding: 3rem 2rem 2rem}

@@ -13,6 +13,6 @@ pages = {
     name: st.Page(PAGES / f"{name}.py", title=title, url_path=name, default=name == "home")
     for name, title in header.TITLES.items()
 }
-current = st.navigation(list(pages.values()))
+current = st.navigation({group: [pages[name] for name in titles] for group, titles in header.GROUPS.items()})
 state.offer_pages(pages)
 current.run()

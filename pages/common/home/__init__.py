@@ -1,0 +1,1 @@
+"""The home page: a field for my plant, and examples."""

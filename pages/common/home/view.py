@@ -1,0 +1,58 @@
+"""The field for my plant, and examples to click."""
+
+import streamlit as st
+
+from pages.common.parts.formula import fitted
+from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.symbols import symbols
+from pages.common.session import state
+from pages.common.shell import header
+from simc_core import parse_plant
+from simc_core.plants.examples import EXAMPLES, Example
+from simc_core.plants.plant import Plant
+
+A_ROW = 3
+
+
+def my_plant() -> None:
+    """A transfer function as text, and from there straight to its tuning."""
+    with st.form("my_plant", border=True):
+        text, button = st.columns([5, 1], vertical_alignment="bottom")
+        typed = text.text_input(
+            "Your process as a transfer function, time constants in your own unit",
+            placeholder="2.2 exp(-20s)/(180s+1)",
+            key="home_plant",
+        )
+        tune = button.form_submit_button("Tune", type="primary", width="stretch")
+    st.caption(
+        "Dead time exact, negative gain, integrators and unstable poles included; a decimal comma is understood. "
+        "Without a transfer function: the page *Plant* takes gain, dead time and time constants, or the facts of a "
+        "step test."
+    )
+    if tune:
+        with explain_refusal():
+            _begin(parse_plant(typed))
+
+
+def cards(examples: tuple[Example, ...]) -> None:
+    """Examples as cards, each with its transfer function; a click begins a loop with it."""
+    for first in range(0, len(examples), A_ROW):
+        for column, example in zip(st.columns(A_ROW), examples[first : first + A_ROW], strict=False):
+            with column.container(border=True, height="stretch", vertical_alignment="distribute"):
+                st.markdown(f"${fitted(example.plant)}$")
+                st.caption(symbols(f"{example.note} {example.source}"))
+                if st.button(example.name, key=f"example_{example.key}", width="stretch"):
+                    with explain_refusal():
+                        _begin(example.plant)
+
+
+def papers() -> None:
+    """The examples of the papers, by name."""
+    with st.expander("Examples of the papers"):
+        cards(EXAMPLES)
+
+
+def _begin(plant: Plant) -> None:
+    """A loop of its own for this plant: what belongs to another plant stays there."""
+    state.begin_loop(plant)
+    header.go("tuning")
