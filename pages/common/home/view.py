@@ -31,7 +31,7 @@ def my_plant() -> None:
     )
     if tune:
         with explain_refusal():
-            _begin(parse_plant(typed))
+            _begin(parse_plant(typed), mine=True)
 
 
 def cards(examples: tuple[Example, ...]) -> None:
@@ -43,7 +43,7 @@ def cards(examples: tuple[Example, ...]) -> None:
                 st.caption(symbols(f"{example.note} {example.source}"))
                 if st.button(example.name, key=f"example_{example.key}", width="stretch"):
                     with explain_refusal():
-                        _begin(example.plant)
+                        _begin(example.plant, mine=False)
 
 
 def papers() -> None:
@@ -52,7 +52,7 @@ def papers() -> None:
         cards(EXAMPLES)
 
 
-def _begin(plant: Plant) -> None:
+def _begin(plant: Plant, mine: bool) -> None:
     """A loop of its own for this plant: what belongs to another plant stays there."""
-    state.begin_loop(plant)
+    state.begin_loop(plant, mine)
     header.go("tuning")

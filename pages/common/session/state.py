@@ -67,14 +67,15 @@ def take_loops(changed: Loops) -> None:
     _show_in_address()
 
 
-def begin_loop(plant: Plant) -> None:
+def begin_loop(plant: Plant, mine: bool) -> None:
     """A fresh design for this plant: instead of the present loop where nobody has changed that, else as another loop.
 
+    mine: the plant was typed, so the loop is kept; an example is kept once it is changed.
     Raises InvalidParameter where the list is full.
     """
     fresh = replace(Design(), plant=plant, form=value("form"))
     take_loops(loops().with_design(fresh) if _untouched() else loops().added(fresh))
-    _first_seen()[loops().entries[loops().current].id] = fresh
+    _first_seen()[loops().entries[loops().current].id] = Design() if mine else fresh
 
 
 def _first_seen() -> dict[str, Design]:
