@@ -20,7 +20,10 @@ def load(data: bytes) -> tuple[Design | None, str]:
     if len(data) > LARGEST:
         return None, f"a project file has at most {LARGEST} bytes, got {len(data)}"
     try:
-        content = json.loads(data.decode("utf-8"))
+        content = json.loads(data.decode("utf-8-sig"))  # Windows puts a mark before the text
+        json.dumps(content, ensure_ascii=False).encode()
+    except UnicodeEncodeError:  # \ud800 alone is JSON, but no character
+        return None, "it holds half a character: a surrogate without its other half"
     except (UnicodeDecodeError, ValueError, RecursionError):
         return None, "it is not JSON text"
     if not isinstance(content, dict) or content.get("format") != FORMAT:

@@ -4,6 +4,7 @@ from functools import partial
 
 import streamlit as st
 
+from pages.common.parts.foreign_text import exact, told
 from pages.common.session import project, state
 from pages.common.session.design import Design
 from simc_core.notation import latex
@@ -82,7 +83,7 @@ def _notices() -> None:
     ignored = state.ignored()
     if not ignored:
         return
-    lines = "\n".join(f"- {notice}" for notice in ignored)
+    lines = "\n".join(f"- {exact(notice.given)} was ignored: {told(notice.why)}" for notice in ignored)
     with st.container(horizontal=True, vertical_alignment="center"):
         st.warning(f"Part of the link could not be used, the rest was.\n\n{lines}", width="stretch")
         st.button("Dismiss", on_click=state.dismiss_ignored)
@@ -109,4 +110,4 @@ def _open(upload) -> None:
             st.rerun()
     why = state.memory("refused", lambda: "")
     if why:
-        st.error(f"{upload.name} was not opened, nothing changed: {why}")
+        st.error(f"{exact(upload.name)} was not opened, nothing changed: {told(why)}")
