@@ -16,7 +16,8 @@ POLICY = {
     "default-src": "'self'",
     # blob: the code of our live components comes with the session and is loaded as a module from a blob.
     # The hash is that of the one inline script in Streamlit's index.html, `window.prerenderReady = false`.
-    "script-src": "'self' blob: 'sha256-THxz9J9+wf7rhwR2YkXJoSZ13UCmYyC+3lNDv2+8ugA='",
+    # wasm: how Streamlit's side multiplies 64-bit integers of messages (long.js); it permits no eval of a text.
+    "script-src": "'self' blob: 'wasm-unsafe-eval' 'sha256-THxz9J9+wf7rhwR2YkXJoSZ13UCmYyC+3lNDv2+8ugA='",
     # Streamlit (emotion) and Plotly write their styles into the page.
     "style-src": "'self' 'unsafe-inline'",
     # data: Plotly's picture of a figure, icons; blob: the picture that is downloaded.

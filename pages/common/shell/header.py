@@ -4,6 +4,7 @@ from functools import partial
 
 import streamlit as st
 
+from pages.common.parts.copyable import copyable
 from pages.common.parts.foreign_text import exact, told
 from pages.common.session import project, state
 from pages.common.session.design import Design
@@ -91,7 +92,7 @@ def _notices() -> None:
 
 def _take_along() -> None:
     st.caption("Link to this page and design")
-    st.code(state.address(), language=None)
+    copyable(state.address(), "address_text")
     content = partial(project.dump, state.design_now())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
     upload = st.file_uploader("Open project", type="json", key="project_file")
