@@ -43,6 +43,7 @@ class Server:
         port: int | None = None,
         options: tuple[str, ...] = (),
         environment: dict[str, str] | None = None,
+        folder: Path = ROOT,
     ):
         if port is None:
             with socket.socket() as free:
@@ -53,7 +54,7 @@ class Server:
         command = [sys.executable, "-m", "streamlit", "run", str(script)]
         self.process = subprocess.Popen(
             [*command, f"--server.port={port}", *options],
-            cwd=ROOT,
+            cwd=folder,
             env=os.environ | (environment or {}),
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,

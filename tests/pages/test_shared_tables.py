@@ -93,8 +93,8 @@ def test_many_threads_get_what_they_ask_for_within_the_bound():
     assert not tables._making
 
 
-@pytest.mark.parametrize(("page", "tables"), [("tuning", 1), ("cascade", 3)])
-def test_a_second_session_takes_the_tables_of_the_first(monkeypatch, page, tables):
+@pytest.mark.parametrize(("place", "tables"), [("tuning", 1), ("cascade", 3)])
+def test_a_second_session_takes_the_tables_of_the_first(monkeypatch, place, tables):
     asked, made = [], []
 
     class Watched(SharedTables):
@@ -106,6 +106,6 @@ def test_a_second_session_takes_the_tables_of_the_first(monkeypatch, page, table
     shared_tables.TABLES._kept.clear()
     shared_tables.TABLES._bytes = 0
     for _ in range(2):
-        run_page(page, "Live", plant="2 exp(-s)/(9s+1)", Ga="2 exp(-s)/(9s+1)")
+        run_page(place, "Live", plant="2 exp(-s)/(9s+1)", Ga="2 exp(-s)/(9s+1)")
     assert len(made) == tables
     assert asked == made * 2
