@@ -3,15 +3,19 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PORT ?= 8501
+HOST ?= 127.0.0.1
+UV := uv==0.13.9
 
-.PHONY: run test lint bench bench-ui screenshots clean
+.PHONY: run test lint bench bench-ui screenshots lock licences clean
 
 run: $(VENV)/run.stamp
 	@echo "SIMC: http://localhost:$(PORT)"
-	$(BIN)/streamlit run app.py --server.port $(PORT)
+	@if [ "$(HOST)" = 127.0.0.1 ]; then echo "For this machine only. To share it with your network: make run HOST=0.0.0.0"; \
+	else echo "Open to everybody who reaches this machine: http://$$(hostname):$(PORT). For a class see deploy/README.md"; fi
+	$(BIN)/streamlit run app.py --server.address $(HOST) --server.port $(PORT)
 
 # Browser tests last: they are the slowest, and the others say more exactly what broke.
-test: $(VENV)/dev.stamp lint chromium
+test: $(VENV)/dev.stamp lint chromium nginx systemd-analyze
 	$(BIN)/python -m pytest tests --ignore=tests/browser -n auto
 	$(BIN)/python -m pytest tests/browser
 
@@ -32,25 +36,39 @@ bench-ui: $(VENV)/dev.stamp chromium
 screenshots: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m tests.browser.readme_picture
 
+# All versions with the hashes of their files, from requirements.txt and pyproject.toml: what run, test and images install.
+lock: $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet $(UV)
+	$(COMPILE) requirements.txt -o requirements.lock
+	$(COMPILE) -c requirements.lock requirements.txt --group pyproject.toml:dev -o requirements-dev.lock
+COMPILE = $(BIN)/uv pip compile --quiet --no-config --no-header --universal --python-version 3.11 --generate-hashes \
+	--default-index https://pypi.org/simple
+
+licences: $(VENV)/run.stamp
+	$(BIN)/python -m deploy.licences
+
 clean:
 	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV) || { echo "No venv here: apt-get install python3-venv"; exit 1; }
 
-$(VENV)/run.stamp: requirements.txt | $(VENV)/bin/python
-	$(BIN)/python -m pip install --quiet --upgrade "pip>=25.1"  # the first that knows --group
-	$(BIN)/python -m pip install --quiet -r requirements.txt
+$(VENV)/run.stamp: requirements.lock | $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet --require-hashes -r requirements.lock
 	touch $@
 
-$(VENV)/dev.stamp: pyproject.toml $(VENV)/run.stamp
-	$(BIN)/python -m pip install --quiet --group dev
+$(VENV)/dev.stamp: requirements-dev.lock $(VENV)/run.stamp
+	$(BIN)/python -m pip install --quiet --require-hashes -r requirements-dev.lock
 	touch $@
 
-.PHONY: chromium
-chromium:
-	@command -v chromium >/dev/null && exit 0; \
+# Programs of Debian that tests need, installed where that is allowed: as root, or by sudo that asks nothing.
+DEBIAN_chromium := chromium
+DEBIAN_nginx := nginx
+DEBIAN_systemd-analyze := systemd
+.PHONY: chromium nginx systemd-analyze
+chromium nginx systemd-analyze:
+	@PATH="$$PATH:/usr/sbin"; command -v $@ >/dev/null && exit 0; \
 	if [ "$$(id -u)" = 0 ]; then AS=; elif sudo -n true 2>/dev/null; then AS="sudo -n"; else AS=none; fi; \
 	if [ "$$AS" != none ] && command -v apt-get >/dev/null; then \
-	    $$AS apt-get update -q && $$AS apt-get install -y -q --no-install-recommends chromium && exit 0; fi; \
-	echo "The browser tests need Chromium. Install it: apt-get install chromium (as root)"; exit 1
+	    $$AS apt-get update -q && $$AS apt-get install -y -q --no-install-recommends $(DEBIAN_$@) && exit 0; fi; \
+	echo "The tests need $@. Install it: apt-get install $(DEBIAN_$@) (as root)"; exit 1

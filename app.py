@@ -9,7 +9,9 @@ from pathlib import Path
 
 import streamlit as st
 
+from server import middleware
+
 # Before numpy is loaded: with many sessions, threads of the linear algebra only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-app = st.App(Path(__file__).parent / "pages" / "common" / "shell" / "router.py")
+app = st.App(Path(__file__).parent / "pages" / "common" / "shell" / "router.py", middleware=middleware())

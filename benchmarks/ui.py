@@ -4,6 +4,8 @@
     redraws per second     frames with a different drawing while the handle is dragged
     n sessions             websocket clients of one process, each releasing the slider now and then: from the request to
                            the end of the script, and the resident memory of the process per session
+    n arrivals             websocket clients that open one link within a few seconds: from the connection to the end of
+                           the script, beside a bare page in the same run
 
 Ratios hold on any machine, milliseconds on this one. Bounded: about two minutes. The last line is JSON.
 """
@@ -20,16 +22,15 @@ import time
 from pathlib import Path
 
 from playwright.sync_api import Page, sync_playwright
-from streamlit.proto.BackMsg_pb2 import BackMsg
-from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
-from websockets.asyncio.client import connect
 
 from tests.browser.conftest import ARGS
 from tests.browser.tools import Server, idle
+from tests.server.client import Client
 
 PRESSES, DRAG = 40, 2.0  # s
 SESSIONS, RELEASES, PAUSE = (1, 30, 100), 3, 10.0  # pause: mean seconds between two releases of one session
 PLANT = "exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"
+ARRIVALS = ((30, 1.0), (100, 10.0))  # visitors, and the seconds within which they come
 PATIENCE = 60.0  # s
 BARE = "import streamlit as st\nst.metric('value', st.slider('tau_c', 0, 1000, 500))\n"
 WATCH = """([element, shown]) => {
@@ -62,6 +63,7 @@ def main() -> None:
         result["live cascade"] = live(page, "cascade")
         browser.close()
     result["sessions"] = {str(n): asyncio.run(sessions(n)) for n in SESSIONS}
+    result["arrivals"] = {f"{n} in {within:g} s": all_arrivals(n, within) for n, within in ARRIVALS}
     show(result)
     print(json.dumps(result))
 
@@ -116,60 +118,76 @@ def presses(page: Page, handle, watched: list) -> dict[str, float]:
 
 
 async def sessions(n: int) -> dict[str, float]:
-    """n clients of one process; each adds a table of its own, since their first designs differ."""
+    """n clients of one process, whose first designs differ."""
     server = Server()
     try:
         async with asyncio.timeout(4 * PATIENCE):
-            first = Client(server.url)
-            await first.open()  # the process has imported everything
-            await first.socket.close()
+            await visit(server.url, query("7"))  # the process has imported everything
             before, clients = memory(server), [Client(server.url) for _ in range(n)]
             for each in clients:  # one after the other: a class that comes in, not a stampede
                 await each.open()
-            await asyncio.gather(*(each.release(*((RELEASES, PAUSE) if n > 1 else (10, 0.5))) for each in clients))
+                await each.run("tuning", query("7"))
+            times = await asyncio.gather(
+                *(release(each, *((RELEASES, PAUSE) if n > 1 else (10, 0.5))) for each in clients)
+            )
             grown = memory(server) - before
-            await asyncio.gather(*(each.socket.close() for each in clients))
-        times = [each for one in clients for each in one.times]
-        return {"median ms": statistics.median(times), "p95 ms": p95(times), "MB per session": grown / n}
+            await asyncio.gather(*(each.close() for each in clients))
+        found = [time for each in times for time in each]
+        return {"median ms": statistics.median(found), "p95 ms": p95(found), "MB per session": grown / n}
     finally:
         server.stop()
 
 
-class Client:
-    """A browser as the server sees it: it asks for reruns and keeps what it was told to keep."""
+async def release(client: Client, times: int, pause: float) -> list[float]:
+    """Releases of the slider at random moments; ms of each."""
+    found = []
+    for _ in range(times):
+        await asyncio.sleep(random.uniform(0.5, 1.5) * pause)
+        found.append(await client.run("tuning", query(f"{random.uniform(5, 9):.4g}")))
+    return found
 
-    def __init__(self, url: str):
-        self.address = url.replace("http", "ws") + "/_stcore/stream"
-        self.times: list[float] = []
-        self.kept: list[str] = []
 
-    async def open(self) -> None:
-        """The tuning page for the first time."""
-        self.socket = await connect(self.address, subprotocols=["streamlit"], max_size=None)
-        await self.rerun("7")
+def all_arrivals(n: int, within: float) -> dict[str, dict[str, float]]:
+    """Arrivals at the tuning page and, in the same run, at a bare one."""
+    with tempfile.TemporaryDirectory() as folder:
+        script = Path(folder) / "bare.py"
+        script.write_text(BARE)
+        bare = asyncio.run(arrivals(Server(script), "", "", n, within))
+    return {"tuning": asyncio.run(arrivals(Server(), "tuning", query("7"), n, within)), "bare": bare}
 
-    async def release(self, times: int, pause: float) -> None:
-        """Releases of the slider at random moments."""
-        for _ in range(times):
-            await asyncio.sleep(random.uniform(0.5, 1.5) * pause)
-            self.times.append(await self.rerun(f"{random.uniform(5, 9):.4g}"))
 
-    async def rerun(self, tau_c: str) -> float:
-        """ms until the script has ended."""
-        asked = BackMsg()
-        asked.rerun_script.query_string = f"plant={PLANT}&order=1&tau_c={tau_c}"
-        asked.rerun_script.page_name = "tuning"
-        asked.rerun_script.cached_message_hashes.extend(self.kept)
-        begin = time.perf_counter()
-        await self.socket.send(asked.SerializeToString())
-        while True:
-            message = ForwardMsg.FromString(await self.socket.recv())
-            if message.metadata.cacheable and message.hash not in self.kept:
-                self.kept.append(message.hash)
-            if message.WhichOneof("type") == "script_finished":
-                if message.script_finished != ForwardMsg.FINISHED_SUCCESSFULLY or not self.kept:
-                    raise RuntimeError("the page did not run")  # the table is large enough to be kept
-                return 1000 * (time.perf_counter() - begin)
+async def arrivals(server: Server, page: str, link: str, n: int, within: float) -> dict[str, float]:
+    """n visitors who open one link at random moments within so many seconds."""
+    try:
+        async with asyncio.timeout(PATIENCE):
+            await visit(
+                server.url, "" if not page else f"{link}&b=0.9", page
+            )  # everything is imported, no table is made
+            times = await asyncio.gather(*(late(random.uniform(0, within), server.url, link, page) for _ in range(n)))
+        return {"median ms": statistics.median(times), "p95 ms": p95(times)}
+    finally:
+        server.stop()
+
+
+async def late(wait: float, *link: str) -> float:
+    """A visit after a while."""
+    await asyncio.sleep(wait)
+    return await visit(*link)
+
+
+async def visit(url: str, link: str, page: str = "tuning") -> float:
+    """Open a page, and leave; ms from the connection to the end of the script."""
+    begin, client = time.perf_counter(), Client(url)
+    await client.open()
+    await client.run(page, link)
+    taken = 1000 * (time.perf_counter() - begin)
+    await client.close()
+    return taken
+
+
+def query(tau_c: str) -> str:
+    """The link of a design."""
+    return f"plant={PLANT}&order=1&tau_c={tau_c}"
 
 
 def memory(server: Server) -> float:
@@ -197,6 +215,12 @@ def show(result: dict) -> None:
     for n, row in result["sessions"].items():
         ratio = row["p95 ms"] / first
         print(f"{n:>8} {row['median ms']:19.1f} {row['p95 ms']:8.1f} {ratio:14.2f} {row['MB per session']:16.2f}")
+    print("\narrivals            median ms   p95 ms   bare page: median ms   p95 ms")
+    for name, row in result["arrivals"].items():
+        print(f"{name:17}", "".join(f"{row[each][key]:{width}.1f}" for each, key, width in COLUMNS))
+
+
+COLUMNS = (("tuning", "median ms", 11), ("tuning", "p95 ms", 9), ("bare", "median ms", 23), ("bare", "p95 ms", 9))
 
 
 if __name__ == "__main__":

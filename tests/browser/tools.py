@@ -1,5 +1,6 @@
 """Servers, waiting, pictures: what the browser tests share."""
 
+import os
 import re
 import socket
 import subprocess
@@ -31,9 +32,19 @@ PATIENCE = 30  # seconds for a server to start on a busy machine
 
 
 class Server:
-    """A fresh `streamlit run` of a script, app.py unless told otherwise, on a port of 127.0.0.1, a free one if None."""
+    """A fresh `streamlit run` of a script, app.py unless told otherwise, on a port of 127.0.0.1, a free one if None.
 
-    def __init__(self, script: Path = ROOT / "app.py", port: int | None = None):
+    Settings are those of .streamlit/config.toml, as for everybody, but for `options` of the command line.
+    """
+
+    def __init__(
+        self,
+        script: Path = ROOT / "app.py",
+        port: int | None = None,
+        options: tuple[str, ...] = (),
+        environment: dict[str, str] | None = None,
+        folder: Path = ROOT,
+    ):
         if port is None:
             with socket.socket() as free:
                 free.bind(("127.0.0.1", 0))
@@ -41,9 +52,12 @@ class Server:
         self.port = port
         self.url = f"http://127.0.0.1:{port}"
         command = [sys.executable, "-m", "streamlit", "run", str(script)]
-        options = [f"--server.port={port}", "--server.address=127.0.0.1", "--server.fileWatcherType=none"]
         self.process = subprocess.Popen(
-            command + options, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+            [*command, f"--server.port={port}", *options],
+            cwd=folder,
+            env=os.environ | (environment or {}),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
         )
         self._wait()
 

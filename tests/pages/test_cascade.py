@@ -13,7 +13,7 @@ from pages.common.studies.cascade import attempt, of_row, study, time_responses
 from simc_core import Plant
 from simc_core.cascade.pairs import ROWS
 
-from .tools import address, run_page, texts
+from .tools import address, copyables, run_page, texts
 
 UNSTABLE = "exp(-s)/(20s-1)"
 # cascade.md: lambda inside and outside, then Ca and Cb (k, ki, kd) as printed
@@ -46,7 +46,7 @@ def values(packed):
 
 def copied(app):
     """All settings on the tab, Ca before Cb and series, ideal, parallel for each, as far as they exist."""
-    found = [code.value for code in app.code if " = " in code.value]
+    found = [text for text in copyables(app) if " = " in text]
     return [{name: float(value) for name, value in (line.split(" = ") for line in text.splitlines())} for text in found]
 
 

@@ -12,7 +12,7 @@ from pages.common.studies.single import study
 from pages.common.tuning.readout import strip_html
 from simc_core import parse_plant
 
-from .tools import address, run_page, texts
+from .tools import address, copyables, run_page, texts
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1
 PANELS = 4  # y, u, Nyquist, |S| and |T|
@@ -23,8 +23,8 @@ def tuned(view="Figures", plant=EXAMPLE, **parameters):
 
 
 def copied(app):
-    """The settings as the copy button gives them, as numbers; the link in the sidebar is another code element."""
-    (text,) = [code.value for code in app.code if " = " in code.value]
+    """The settings as the copy button gives them, as numbers; the link in the sidebar is another of its kind."""
+    (text,) = [text for text in copyables(app) if " = " in text]
     return {name: float(value) for name, value in (line.split(" = ") for line in text.splitlines())}
 
 

@@ -1,5 +1,6 @@
 """Running the app and single pages without a browser."""
 
+import json
 from pathlib import Path
 
 from streamlit.testing.v1 import AppTest
@@ -30,6 +31,12 @@ def _run(script: Path, parameters: dict[str, str], view: str = "", tabs: str = "
 def address(app: AppTest) -> dict[str, str]:
     """The query parameters, each with its one value."""
     return {name: value[0] if isinstance(value, list) else value for name, value in app.query_params.items()}
+
+
+def copyables(app: AppTest) -> list[str]:
+    """The texts that have a button to copy them: the address, settings of controllers."""
+    found = [item.proto for item in app.get("bidi_component") if item.proto.component_name == "simc_copyable"]
+    return [json.loads(proto.json)["text"] for proto in found]
 
 
 def texts(app: AppTest) -> str:

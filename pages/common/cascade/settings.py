@@ -2,6 +2,7 @@
 
 import streamlit as st
 
+from pages.common.parts.copyable import copyable
 from pages.common.parts.settings_text import STRUCTURE, as_text
 from pages.common.parts.symbols import symbols
 from pages.common.studies.cascade import CascadeStudy
@@ -11,23 +12,23 @@ from simc_core.errors import FormError
 
 def settings(study: CascadeStudy) -> None:
     """A row for each controller, a column for each form."""
-    for title, controller in (
-        (f"**Outer controller** $C_a$, {study.cascade.outer}, acts on $y_1$", study.loop.outer),
-        (f"**Inner controller** $C_b$, {study.cascade.inner}, acts on $y_2$", study.loop.inner),
+    for name, title, controller in (
+        ("outer", f"**Outer controller** $C_a$, {study.cascade.outer}, acts on $y_1$", study.loop.outer),
+        ("inner", f"**Inner controller** $C_b$, {study.cascade.inner}, acts on $y_2$", study.loop.inner),
     ):
         st.markdown(title)
         for place, form in zip(st.columns(len(FORMS), gap="small"), FORMS, strict=True):
             with place:
-                _in_form(controller, form)
+                _in_form(name, controller, form)
     st.caption(
         "$\\tau_F$ is the filter over the whole controller, as in $C(s)/(\\tau_F s+1)$. The inner controller acts on "
         "its error $r_2 - y_2$, so it has no set-point weight."
     )
 
 
-def _in_form(controller: Controller, form: str) -> None:
+def _in_form(name: str, controller: Controller, form: str) -> None:
     st.markdown(f"{form}: ${STRUCTURE[form]}$")
     try:
-        st.code(as_text(controller, form), language=None)
+        copyable(as_text(controller, form), f"settings_{name}_{form}")
     except FormError as error:
         st.info(symbols(f"No {form} form: {error}"))

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import pandas as pd
 import streamlit as st
 
+from pages.common.parts.foreign_text import block, told
 from pages.common.plant import rows as entries
 from pages.common.session import state
 from simc_core import Plant, parse_plant
@@ -174,6 +175,6 @@ def _complaint(draft: _Draft) -> None:
         return
     where = ""
     if isinstance(draft.error, ParseError) and "\n" not in draft.error.text and len(draft.error.text) <= 200:
-        where = f"\n```text\n{draft.error.text}\n{' ' * draft.error.position}^\n```"
-    st.error(f"{draft.error}{where}")
+        where = block(draft.error.text, f"{' ' * draft.error.position}^")
+    st.error(told(str(draft.error)) + where)
     st.caption("The last good plant stays in use until this can be read.")

@@ -75,7 +75,12 @@ class Ignored:
     why: str
 
     def __str__(self) -> str:
-        return f"`{_short(self.name)} = {_short(self.value)}` was ignored: {self.why}"
+        return f"{self.given} was ignored: {self.why}"
+
+    @property
+    def given(self) -> str:
+        """What stood there, shortened."""
+        return f"{_short(self.name)} = {_short(self.value)}"
 
 
 def encode(design: Design) -> dict[str, str]:
@@ -112,7 +117,6 @@ def number_text(value: float | None) -> str:
 
 
 def _short(text: str) -> str:
-    text = "".join(c if c.isprintable() and c != "`" else "?" for c in text)
     return text if len(text) <= 60 else text[:57] + "..."
 
 

@@ -4,6 +4,8 @@ from functools import partial
 
 import streamlit as st
 
+from pages.common.parts.copyable import copyable
+from pages.common.parts.foreign_text import exact, told
 from pages.common.session import project, state
 from pages.common.session.design import Design
 from pages.common.shell.loops_menu import loops_menu
@@ -83,7 +85,7 @@ def _notices() -> None:
     ignored = state.ignored()
     if not ignored:
         return
-    lines = "\n".join(f"- {notice}" for notice in ignored)
+    lines = "\n".join(f"- {exact(notice.given)} was ignored: {told(notice.why)}" for notice in ignored)
     with st.container(horizontal=True, vertical_alignment="center"):
         st.warning(f"Part of the link could not be used, the rest was.\n\n{lines}", width="stretch")
         st.button("Dismiss", on_click=state.dismiss_ignored)
@@ -91,7 +93,7 @@ def _notices() -> None:
 
 def _take_along() -> None:
     st.caption("Link to this page and design")
-    st.code(state.address(), language=None)
+    copyable(state.address(), "address_text")
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
     upload = st.file_uploader("Open project", type="json", key="project_file")
@@ -111,4 +113,4 @@ def _open(upload) -> None:
             st.rerun()
     why = state.memory("refused", lambda: "")
     if why:
-        st.error(f"{upload.name} was not opened, nothing changed: {why}")
+        st.error(f"{exact(upload.name)} was not opened, nothing changed: {told(why)}")

@@ -4,6 +4,7 @@ import math
 
 import streamlit as st
 
+from pages.common.parts.copyable import copyable
 from pages.common.parts.scales import nearest
 from pages.common.parts.settings_text import STRUCTURE, as_text
 from pages.common.session import state
@@ -120,7 +121,7 @@ def settings(study: Study) -> None:
     structure = r"\frac{K_I}{s}" if isinstance(shown, IController) else STRUCTURE[form]
     st.markdown(f"$C(s) = {structure}$")
     st.markdown(f"$\\phantom{{C(s)}} = {latex(shown)}$")
-    st.code(as_text(study.controller, form), language=None)
+    copyable(as_text(study.controller, form), "settings_text")
 
 
 def _presets(model: Model, tau_c: float) -> None:

@@ -8,6 +8,7 @@ import streamlit as st
 from pages.common.live import components
 from pages.common.live.cascade import table as cascade_table
 from pages.common.live.cascade.table import LOOPS
+from pages.common.live.kit.shared_tables import TABLES
 from pages.common.session import state
 from pages.common.session.design import Cascade
 from pages.common.studies.cascade import study
@@ -26,7 +27,7 @@ class _Kept:
     def made(self, what: str, name: str, make: Callable[[], bytes]) -> bytes:
         """The message of this name; made where the one that is kept has another."""
         if self.messages.get(what, ("",))[0] != name:
-            self.messages[what] = (name, make())
+            self.messages[what] = (name, TABLES.get(f"{what} {name}", make))
         return self.messages[what][1]
 
 

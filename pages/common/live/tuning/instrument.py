@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import streamlit as st
 
 from pages.common.live import components
+from pages.common.live.kit.shared_tables import TABLES
 from pages.common.live.tuning import table
 from pages.common.session import state
 from pages.common.studies.single import Study
@@ -25,7 +26,8 @@ def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     on = table.bench(of, present, kept.horizon if kept.of == of else None)
     name = table.name_of(of, on, pins)
     if kept.name != name:  # a release must not make the table again
-        kept = _Kept(of, float(on.t[-1]), name, table.table(of, on, pins, name))
+        message = TABLES.get(name, lambda: table.table(of, on, pins, name))
+        kept = _Kept(of, float(on.t[-1]), name, message)
         state.remember("live_table", kept)
     asked = components.tuning(key=KEY, data=kept.message, on_release_change=_released)
     components.answer_if_unheard(asked, state.memory("live_answers", int), _take)

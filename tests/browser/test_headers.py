@@ -1,0 +1,97 @@
+"""The policy of our answers in a real browser: pages work under it, and what it forbids does not happen."""
+
+from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from threading import Thread
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.tools import Server, idle
+
+PAGES = ("", "plant", "half_rule", "tuning", "cascade", "accuracy")
+VIOLATIONS = """document.addEventListener('securitypolicyviolation', event => {
+    console.error('forbidden by the policy: ' + event.violatedDirective + ' ' + event.blockedURI);
+});"""
+
+
+def test_every_page_and_every_tab_works_under_the_policy(server, open_page):
+    page = open_page(f"{server}/plant")
+    page.add_init_script(VIOLATIONS)  # each becomes an error of the console, which fails the test
+    for path in PAGES:
+        page.goto(f"{server}/{path}")
+        idle(page)
+        if path not in ("", "accuracy"):
+            expect(page.locator(".js-plotly-plot:visible, .live:visible").first).to_be_visible()
+        for tab in page.get_by_role("tab").all():
+            tab.click()
+            idle(page)
+
+
+def test_what_the_policy_forbids_does_not_happen(server, chromium):
+    page = chromium.new_page()
+    page.goto(server)
+    forbidden = page.evaluate(
+        """() => new Promise(done => {
+            const found = [];
+            document.addEventListener('securitypolicyviolation', event => {
+                found.push(event.effectiveDirective);
+                if (found.length === 3) done(found.sort());
+            });
+            const script = document.createElement('script');
+            script.textContent = 'globalThis.intruder = 1';
+            document.head.append(script);
+            new Image().src = 'https://example.org/a.png';
+            fetch('https://example.org/').catch(() => {});
+        })"""
+    )
+    assert forbidden == ["connect-src", "img-src", "script-src-elem"]
+    assert page.evaluate("globalThis.intruder") is None
+    page.close()
+
+
+class CoursePage(BaseHTTPRequestHandler):
+    """A page of another origin with ours in a frame; the query is the address of ours."""
+
+    def do_GET(self) -> None:
+        self.send_response(200)
+        self.send_header("Content-Type", "text/html")
+        self.end_headers()
+        self.wfile.write(f'<iframe src="{self.path.partition("?")[2]}" width="900" height="700"></iframe>'.encode())
+
+    def log_message(self, *_) -> None:
+        pass
+
+
+@pytest.fixture
+def course() -> Iterator[str]:
+    with ThreadingHTTPServer(("127.0.0.1", 0), CoursePage) as page:
+        Thread(target=page.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{page.server_port}"
+        page.shutdown()
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_another_page_frames_ours_only_when_it_is_named(chromium, course, named):
+    server = Server(environment={"SIMC_FRAMED_BY": course if named else ""})
+    try:
+        page = chromium.new_page()
+        page.goto(f"{course}/?{server.url}/plant")
+        if named:
+            expect(page.frame_locator("iframe").locator(".js-plotly-plot").first).to_be_visible(timeout=30_000)
+        else:
+            assert page.frames[1].url == "chrome-error://chromewebdata/"
+        page.close()
+    finally:
+        server.stop()
+
+
+def test_the_settings_are_copied_as_they_are_shown(server, open_page):
+    page = open_page(f"{server}/tuning?plant=2/(5s%2B1)*exp(-s)")
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    box = page.locator(".st-key-settings_text")
+    shown = box.locator("pre").inner_text()
+    assert "Kc = " in shown
+    box.get_by_role("button").click()
+    expect(box.get_by_role("button")).to_have_text("Copied")
+    assert page.evaluate("navigator.clipboard.readText()") == shown
