@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from pages.common.plant import rows as entries
 from simc_core import Plant
 from simc_core.errors import InvalidParameter
+from simc_core.numbers import read_numbers
 
 from .test_links import plants
 
@@ -34,7 +35,7 @@ def test_polynomials_give_back_the_same_response(plant):
     "text", ["1 3.5 2", "1 3,5 2", "1; 3,5; 2", "1, 3.5, 2", "1,3.5,2", "[1, 3.5, 2]", " 1   3.5 2 "]
 )
 def test_coefficients_as_people_type_them(text):
-    assert entries.coefficients("denominator", text) == [1.0, 3.5, 2.0]
+    assert read_numbers("denominator", text) == [1.0, 3.5, 2.0]
 
 
 @pytest.mark.parametrize(
@@ -43,7 +44,7 @@ def test_coefficients_as_people_type_them(text):
 )
 def test_coefficients_that_are_none(text, why):
     with pytest.raises(InvalidParameter, match=why):
-        entries.coefficients("denominator", text)
+        read_numbers("denominator", text)
 
 
 def row(factor, tau=None, zeta=None):

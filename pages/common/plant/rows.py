@@ -1,11 +1,13 @@
 """The ways people have a plant: a table of factors, or polynomials. Each to a Plant and back. Pure: no streamlit."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
 from simc_core import Plant
 from simc_core.errors import InvalidParameter
+from simc_core.numbers import read_numbers
 
 LAG = "lag 1/(τs + 1)"
 LEAD = "zero (τs + 1)"
@@ -13,7 +15,6 @@ LAG_PAIR = "pair 1/(τ²s² + 2ζτs + 1)"
 LEAD_PAIR = "pair (τ²s² + 2ζτs + 1)"
 INTEGRATOR = "integrator 1/s"
 FACTORS = (LAG, LEAD, INTEGRATOR, LAG_PAIR, LEAD_PAIR)
-LONGEST_TEXT = 2000  # characters of a polynomial
 
 
 def rows_of(plant: Plant) -> list[dict]:
@@ -67,34 +68,15 @@ def polynomials_of(plant: Plant) -> tuple[str, str]:
 def plant_of_polynomials(num: str, den: str, theta: float | None) -> Plant:
     """The plant of two texts of coefficients. Raises InvalidParameter."""
     return Plant.from_polynomials(
-        coefficients("numerator", num), coefficients("denominator", den), _number("theta", theta)
+        read_numbers("numerator", num), read_numbers("denominator", den), _number("theta", theta)
     )
-
-
-def coefficients(name: str, text: str) -> list[float]:
-    """Numbers separated by blanks or semicolons, or by commas where these are not decimal commas.
-
-    "1 3,5 2" and "1; 3,5; 2" are 1, 3.5, 2; so is "1, 3.5, 2". Raises InvalidParameter with the number of the fault.
-    """
-    if len(text) > LONGEST_TEXT:
-        raise InvalidParameter(f"{name} may have at most {LONGEST_TEXT} characters, got {len(text)}")
-    text = text.strip().strip("[]()").strip()
-    listed = ", " in text or ("," in text and " " not in text and ";" not in text)
-    words = (text.replace(",", " ") if listed else text.replace(";", " ").replace(",", ".")).split()
-    values = []
-    for i, word in enumerate(words, start=1):
-        try:
-            values.append(float(word))
-        except ValueError:
-            raise InvalidParameter(f"{name}: coefficient {i} must be a number, got {word[:40]}") from None
-    if not values:
-        raise InvalidParameter(f"{name} must have at least one coefficient, got none")
-    return values
 
 
 def coefficients_text(values: Sequence[float]) -> str:
     """Coefficients as people type them; twelve digits, since products of time constants carry rounding."""
-    return " ".join(f"{value:.12g}" for value in values)
+    words = [f"{value:.12g}" for value in values]
+    # 1 200 would read back as one number or as two
+    return ("; " if any(re.match(r"\d{3}", word) for word in words[1:]) else " ").join(words)
 
 
 def _row(factor: str | None, tau: float | None = None, zeta: float | None = None) -> dict:
