@@ -2,6 +2,7 @@
 
 import math
 import re
+from decimal import Decimal
 from fractions import Fraction
 
 import pytest
@@ -187,7 +188,7 @@ def test_digits_are_never_dropped(text):
     if re.search("[eE/^⁻³]", text):
         return
     typed = re.sub(r"\D", "", text).strip("0")
-    assert f"{Fraction(value).limit_denominator(10**14) * 10**14}".strip("-0") == typed or len(typed) > 12
+    assert re.sub(r"\D", "", f"{Decimal(repr(value)):f}").strip("0") == typed or len(typed) > 12
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from markdown_it import MarkdownIt
 from pages.common.parts.foreign_text import block, exact, printable, told
 from pages.common.session import links, project
 from pages.common.session.design import Design
+from pages.common.session.loops import Loops
 from tests.pages.tools import run_page
 
 MARKDOWN = MarkdownIt("commonmark").enable(["table", "strikethrough"])
@@ -96,38 +97,39 @@ JSON = st.recursive(
 
 
 @settings(max_examples=200, derandomize=True)
-@given(st.fixed_dictionaries({}, optional={"format": JSON, "version": JSON, "design": JSON}))
+@given(st.fixed_dictionaries({}, optional={"format": JSON, "version": JSON, "loops": JSON, "current": JSON}))
 def test_any_json_is_read_or_refused_in_words(wrong):
-    for content in (wrong, json.loads(project.dump(Design())) | wrong):
-        design, why = project.load(json.dumps(content).encode())
-        assert (design is None) == bool(why)
-        assert design is not None or {p.type for p in inline("Not opened: " + told(why))} <= {"text", "code_inline"}
+    for content in (wrong, json.loads(project.dump(Loops())) | wrong):
+        loops, why = project.load(json.dumps(content).encode())
+        assert (loops is None) == bool(why)
+        assert loops is not None or {p.type for p in inline("Not opened: " + told(why))} <= {"text", "code_inline"}
 
 
 @settings(max_examples=200, derandomize=True)
 @given(st.data())
 def test_any_bytes_are_read_or_refused_in_words(data):
-    content = bytearray(project.dump(Design()).encode())
+    content = bytearray(project.dump(Loops()).encode())
     for _ in range(data.draw(st.integers(1, 4))):
         at = data.draw(st.integers(0, len(content) - 1))
         content[at : at + data.draw(st.integers(0, 3))] = data.draw(st.binary(max_size=3))
-    design, why = project.load(bytes(content))
-    assert (design is None) == bool(why)
+    loops, why = project.load(bytes(content))
+    assert (loops is None) == bool(why)
 
 
 def test_the_mark_that_windows_puts_before_a_text_does_no_harm():
-    assert project.load(b"\xef\xbb\xbf" + project.dump(Design()).encode()) == (Design(), "")
+    loops = Loops()
+    assert project.load(b"\xef\xbb\xbf" + project.dump(loops).encode()) == (loops, "")
 
 
 @pytest.mark.parametrize("where", ["plant", "form", "\\udfff", "version"])
 def test_half_a_character_is_refused_in_words(where):
-    content = json.loads(project.dump(Design()))
+    content = json.loads(project.dump(Loops()))
     if where == "version":
         content["version"] = "\ud800"
     else:
-        content["design"][where.replace("\\udfff", "\udfff")] = "\ud800"
-    design, why = project.load(json.dumps(content).encode())
-    assert design is None
+        content["loops"][0]["design"][where.replace("\\udfff", "\udfff")] = "\ud800"
+    loops, why = project.load(json.dumps(content).encode())
+    assert loops is None
     assert "half a character" in why
 
 
