@@ -14,6 +14,7 @@ from playwright.sync_api import expect
 
 from pages.common.session import project
 from pages.common.session.design import Design
+from pages.common.session.loops import Entry, Loops
 from simc_core import Plant
 from tests.browser.tools import ROOT, Server, idle, watch
 
@@ -87,13 +88,14 @@ def test_pages_uploads_and_downloads_work(cluster, chromium, tmp_path, node):
     idle(page)
     expect(page.locator(".live[data-exact=true]")).to_be_visible()
     file = tmp_path / "mine.json"
-    file.write_text(project.dump(Design(Plant(7.0, 1.0, (9.0,)))))
+    file.write_text(project.dump(Loops((Entry(Design(Plant(7.0, 1.0, (9.0,)))),))))
     page.locator("input[type=file]").set_input_files(file)
     expect(page.locator(".st-key-line .katex").first).to_contain_text("9s")
     idle(page)
     with page.expect_download() as download:
         page.get_by_role("button", name="Save project").click()
-    assert json.loads(Path(download.value.path()).read_text())["design"]["plant"] == "7 exp(-s)/(9 s + 1)"
+    [loop] = json.loads(Path(download.value.path()).read_text())["loops"]
+    assert loop["design"]["plant"] == "7 exp(-s)/(9 s + 1)"
     assert [each["value"] for each in context.cookies() if each["name"] == "simc_node"] == [node]
     large = tmp_path / "large.json"
     large.write_bytes(b" " * 1_100_000)

@@ -126,3 +126,22 @@ def watch(page: Page, faults: list[str]) -> None:
     page.on("console", console)
     page.on("pageerror", lambda error: faults.append(f"exception: {error}"))
     page.on("request", request)
+
+
+class Wire:
+    """Counts the bytes a page receives from now on, compressed as they come, websockets included."""
+
+    def __init__(self, page: Page):
+        self.bytes = 0
+        devtools = page.context.new_cdp_session(page)
+        devtools.send("Network.enable")
+        devtools.on("Network.loadingFinished", lambda event: self._add(event["encodedDataLength"]))
+        devtools.on("Network.webSocketFrameReceived", lambda event: self._add(_length(event["response"])))
+
+    def _add(self, size: float) -> None:
+        self.bytes += int(size)
+
+
+def _length(frame: dict) -> int:
+    """Bytes of a frame; DevTools gives binary ones (opcode 2) as base64."""
+    return 3 * len(frame["payloadData"]) // 4 if frame["opcode"] == 2 else len(frame["payloadData"])

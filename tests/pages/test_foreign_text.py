@@ -97,12 +97,12 @@ JSON = st.recursive(
 
 
 @settings(max_examples=200, derandomize=True)
-@given(st.fixed_dictionaries({}, optional={"format": JSON, "version": JSON, "loops": JSON, "current": JSON}))
+@given(st.fixed_dictionaries({}, optional=dict.fromkeys(("format", "version", "design", "loops", "current"), JSON)))
 def test_any_json_is_read_or_refused_in_words(wrong):
     for content in (wrong, json.loads(project.dump(Loops())) | wrong):
-        loops, why = project.load(json.dumps(content).encode())
-        assert (loops is None) == bool(why)
-        assert loops is not None or {p.type for p in inline("Not opened: " + told(why))} <= {"text", "code_inline"}
+        design, why = project.load(json.dumps(content).encode())
+        assert (design is None) == bool(why)
+        assert design is not None or {p.type for p in inline("Not opened: " + told(why))} <= {"text", "code_inline"}
 
 
 @settings(max_examples=200, derandomize=True)
@@ -112,8 +112,8 @@ def test_any_bytes_are_read_or_refused_in_words(data):
     for _ in range(data.draw(st.integers(1, 4))):
         at = data.draw(st.integers(0, len(content) - 1))
         content[at : at + data.draw(st.integers(0, 3))] = data.draw(st.binary(max_size=3))
-    loops, why = project.load(bytes(content))
-    assert (loops is None) == bool(why)
+    design, why = project.load(bytes(content))
+    assert (design is None) == bool(why)
 
 
 def test_the_mark_that_windows_puts_before_a_text_does_no_harm():
@@ -128,9 +128,14 @@ def test_half_a_character_is_refused_in_words(where):
         content["version"] = "\ud800"
     else:
         content["loops"][0]["design"][where.replace("\\udfff", "\udfff")] = "\ud800"
-    loops, why = project.load(json.dumps(content).encode())
-    assert loops is None
+    design, why = project.load(json.dumps(content).encode())
+    assert design is None
     assert "half a character" in why
+
+
+def test_half_a_character_in_the_storage_of_the_browser_is_no_project():
+    loops, why = project.load('{"format": "\ud800"}'.encode(errors="surrogatepass"))
+    assert (loops, why) == (None, "it is not JSON text")
 
 
 @pytest.mark.parametrize("attack", ATTACKS)
@@ -142,7 +147,18 @@ def test_a_page_stays_a_page(attack):
             assert {piece.type for piece in pieces} <= {"text", "code_inline"}
     field = app.text_input("plant_text_text").set_value(attack).run()
     assert not field.exception
-    content = {"format": "simc-project", "version": 1, "design": {"plant": attack, attack: attack}}
+    content = {"format": "simc-project", "version": 1, "design": {"plant": attack, attack: attack}}  # one of old
     upload = app.file_uploader("project_file")
     upload.set_value((f"{attack}.json".replace("\x00", ""), json.dumps(content).encode(), "application/json")).run()
     assert not app.exception
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+def test_my_plant_on_the_first_page_is_read_or_refused_in_words(attack):
+    app = run_page("home")
+    app.text_input("home_plant").set_value(attack)
+    next(button for button in app.button if button.label == "Tune").click().run()
+    assert not app.exception
+    [refused] = app.error
+    pieces = inline(refused.value.removeprefix("**This cannot be read.** "))
+    assert {piece.type for piece in pieces} <= {"text", "code_inline"}

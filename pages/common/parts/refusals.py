@@ -5,8 +5,9 @@ from contextlib import contextmanager
 
 import streamlit as st
 
+from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import sentence
-from simc_core.errors import NotReducible, SimcError
+from simc_core.errors import NotReducible, ParseError, SimcError
 
 STYLE = """<style>
 .st-key-guards [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
@@ -19,6 +20,8 @@ def explain_refusal() -> Iterator[None]:
     """A SimcError raised inside is told in words, in place of the rest of the page."""
     try:
         yield
+    except ParseError as error:  # it quotes what was typed
+        st.error(f"**This cannot be read.** {told(str(error))}")
     except NotReducible as error:
         st.error(f"**The half rule does not cover this plant.** {sentence(str(error))}")
     except SimcError as error:

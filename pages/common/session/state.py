@@ -93,7 +93,7 @@ def join_kept(text: str) -> None:
     if asked_browser():
         return
     st.session_state["kept_ids"] = frozenset()
-    kept, _ = project.load(text.encode())
+    kept, _ = project.load(text.encode(errors="surrogatepass"))  # half a character is refused there
     if kept is not None:
         st.session_state["kept_ids"] = kept.ids
         take_loops(loops().joined(kept, st.session_state["opened"]))
