@@ -76,7 +76,7 @@ def tau_c_in_use(model: Model, tuning: Tuning) -> float:
     """
     if tuning.tau_c is not None and not isinstance(model, UnstableDelay):
         return tuning.tau_c
-    return next(iter(tau_c_presets(model).values()), 1.0)
+    return default_tau_c(model)
 
 
 def time_responses(studies: list[Study]) -> list[TimeResponse]:

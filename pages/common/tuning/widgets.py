@@ -73,7 +73,7 @@ def _slider(model: Model, tau_c: float) -> None:
 
 def tau_c_presets_or_one(model: Model) -> float:
     """A time to measure tau_c by where the model has no dead time."""
-    return next(iter(tau_c_presets(model).values()), 1.0)
+    return default_tau_c(model)
 
 
 def structure() -> None:
