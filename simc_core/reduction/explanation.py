@@ -88,8 +88,8 @@ def notes(parts: Dynamics, model: Model, order: int, orders: Orders | None) -> t
         case OscillatingDelay():
             said.append(
                 "The oscillating pair is kept whatever the order; its rule is a PID in ideal form. "
-                "The controller cancels the pair and acts with D on the measurement: set-point steps and input disturbances "
-                "both stay oscillatory, with the damping of the open plant."
+                "The controller cancels the pair and does not damp it: with D on the measurement, set-point steps and "
+                "input disturbances both ring with the damping of the open plant."
             )
         case UnstableDelay() if order == 1 and parts.lags:
             said.append(

@@ -1,7 +1,7 @@
 """From what the user has decided to everything the pages show of it. Pure: no streamlit."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -11,14 +11,12 @@ from simc_core.errors import NotStable
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.metrics.performance import Performance, StepMetrics, performance
-from simc_core.plants.models import Model, UnstableDelay
+from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
-from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Reduction
-from simc_core.rules.simc import simc, tau_c_presets
-from simc_core.sensitivity.margins import Margins, margins
+from simc_core.sensitivity.margins import Margins
 from simc_core.simulation import Scenario, TimeResponse, simulate
-from simc_core.studies.sweep import dressed
+from simc_core.studies.tuned import Tuned, tuned
 
 UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
 
@@ -31,16 +29,33 @@ class Study:
     """
 
     tuning: Tuning
-    reduction: Reduction
-    tau_c: float
-    loop: Loop
-    margins: Margins
+    tuned: Tuned
     performance: Performance | None
+
+    @property
+    def reduction(self) -> Reduction:
+        """How the model came about."""
+        return self.tuned.reduction
+
+    @property
+    def tau_c(self) -> float:
+        """The one in use."""
+        return self.tuned.tau_c
+
+    @property
+    def loop(self) -> Loop:
+        """The loop round the full plant."""
+        return self.tuned.loop
+
+    @property
+    def margins(self) -> Margins:
+        """Of that loop."""
+        return self.tuned.margins
 
     @property
     def model(self) -> Model:
         """The reduced model."""
-        return self.reduction.model
+        return self.tuned.model
 
     @property
     def controller(self) -> Controller:
@@ -55,11 +70,8 @@ class Study:
 
 def study(plant: Plant, tuning: Tuning) -> Study:
     """Reduce, tune, close the loop, judge it. Raises SimcError, in words, where one of these is impossible."""
-    reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules)
-    tau_c = tau_c_in_use(reduction.model, tuning)
-    loop = Loop(plant, dressed(simc(reduction.model, tau_c), tuning.b, tuning.filter))
-    judged = margins(loop)
-    return Study(tuning, reduction, tau_c, loop, judged, _measured(loop) if judged.stable else None)
+    found = tuned(plant, **asdict(tuning))
+    return Study(tuning, found, _measured(found.loop) if found.margins.stable else None)
 
 
 def _measured(loop: Loop) -> Performance:
@@ -67,16 +79,6 @@ def _measured(loop: Loop) -> Performance:
         return performance(loop)
     except NotStable:  # an integral exists, but not within reach
         return Performance(UNKNOWN, UNKNOWN)
-
-
-def tau_c_in_use(model: Model, tuning: Tuning) -> float:
-    """tau_c as decided; else tight; for a model without dead time, the first preset there is.
-
-    The rule of an unstable pole knows tight alone.
-    """
-    if tuning.tau_c is not None and not isinstance(model, UnstableDelay):
-        return tuning.tau_c
-    return default_tau_c(model)
 
 
 def time_responses(studies: list[Study]) -> list[TimeResponse]:
