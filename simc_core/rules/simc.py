@@ -99,19 +99,6 @@ def tau_c_multiples(model: Model) -> dict[float, float]:
     return {factor: factor * model.theta for factor in factors}
 
 
-def plant_time(model: Model) -> float:
-    """Time constant of the plant itself, by its model: tau1 + tau2, tau0; math.inf where it does not settle alone."""
-    match model:
-        case FirstOrderDelay():
-            return model.tau1
-        case SecondOrderDelay():
-            return model.tau1 + model.tau2
-        case OscillatingDelay():
-            return model.tau0
-        case _:
-            return math.inf
-
-
 def unstable_factor(a_theta: float) -> float:
     """f(a theta) = (1 + a theta/(2 (1 - 2 a theta)))/(1 - 2 a theta) [SK98 eq. 24], 0 <= a theta < 0.5."""
     a_theta = checks.real("a theta", a_theta, low=0.0)

@@ -20,10 +20,11 @@ from simc_core.plants.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
+from simc_core.plants.plant import Plant
+from simc_core.plants.step_response import rise_time
 from simc_core.reduction.equal_peak import load_error
 from simc_core.reduction.explanation import of_orders
 from simc_core.reduction.records import LARGEST_MS
-from simc_core.rules.simc import plant_time
 from simc_core.studies.remedies import calmer, filter_that_costs_little
 from simc_core.studies.tuned import Tuned
 
@@ -116,32 +117,32 @@ def faster_than_dead_time(of: Tuned) -> Advice | None:
 
 def slower_than_plant(of: Tuned) -> Advice | None:
     """The closed loop slower than the plant is without a controller; for integrating plants, slower than usual."""
-    own, tau_c, theta = plant_time(of.model), of.tau_c, of.model.theta
-    if math.isinf(own):
-        return _slow_integrating(of)
-    limit = max(own, theta)
-    if isinstance(of.model, UnstableDelay) or not tau_c > limit * (1 + ROUNDING) or limit == 0:
+    if isinstance(of.model, UnstableDelay):
         return None
-    text = (
-        f"Sluggish: set-point steps take longer than a step of the plant without a controller, whose time constant "
-        f"is {number(own, 3)}."
-        if own
-        else "Sluggish: the plant has no lag and answers at once after its dead time; the loop takes tau_c longer."
-    )
+    limit = slowest_useful(of.plant, of.model)
+    if not of.tau_c > limit * (1 + ROUNDING):
+        return None
+    if of.plant.integrators:
+        worse = load_error(of.controller) / load_error(of.at(of.model.theta).controller)
+        text = f"Sluggish: the load error tau_I/Kc is {number(worse, 3)} times that of tau_c = theta."
+    else:
+        text = (
+            "Sluggish: set-point steps take longer than a step of the plant without a controller, "
+            f"which reaches 63 % after {number(rise_time(of.plant), 3)}."
+        )
     change = {"tau_c": limit}
-    return Advice("note", "tau_c", text, tau_c, limit, remedy=in_words(change) + ", or less.", change=change)
+    return Advice("note", "tau_c", text, of.tau_c, limit, remedy=in_words(change) + ", or less.", change=change)
 
 
-def _slow_integrating(of: Tuned) -> Advice | None:
-    theta = of.model.theta
-    if isinstance(of.model, UnstableDelay) or not theta or of.tau_c <= SLOW_INTEGRATING * theta * (1 + ROUNDING):
-        return None
-    worse = load_error(of.controller) / load_error(of.at(theta).controller)
-    text = f"Sluggish: the load error tau_I/Kc is {number(worse, 3)} times that of tau_c = theta."
-    change = {"tau_c": SLOW_INTEGRATING * theta}
-    return Advice(
-        "note", "tau_c", text, of.tau_c, change["tau_c"], remedy=in_words(change) + ", or less.", change=change
-    )
+def slowest_useful(plant: Plant, model: Model) -> float:
+    """The largest tau_c with which the loop is not slower than the plant alone, and theta at least.
+
+    The loop reaches 63 % after theta + tau_c. An integrating plant has no time of its own: 8 theta [V06 eq. 7].
+    """
+    theta = model.theta
+    if plant.integrators:
+        return SLOW_INTEGRATING * theta or math.inf
+    return max(rise_time(plant) - theta, theta) or math.inf
 
 
 def derivative_noise(of: Tuned) -> Advice | None:

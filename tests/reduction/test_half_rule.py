@@ -150,7 +150,7 @@ def test_every_share_of_the_budget_is_accounted_for(lags, leads, theta):
     ],
 )
 def test_orders_at_equal_peak_where_a_zero_makes_them_differ(plant, errors):
-    """Load error at Ms = 1.6 found apart from this code, by a search over tau_c with the frequency response on a grid."""
+    """Load errors at Ms = 1.6 found apart from this code: tau_c searched, |S| on a grid of frequencies."""
     for order in (1, 2):
         found = half_rule(plant, order).orders
         assert (found.first, found.second) == pytest.approx(errors, rel=0.01)

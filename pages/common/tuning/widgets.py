@@ -14,11 +14,12 @@ from simc_core.controllers.forms import FORMS, IController
 from simc_core.errors import FormError
 from simc_core.notation import latex, number
 from simc_core.plants.models import Model, UnstableDelay
-from simc_core.rules.simc import default_tau_c, plant_time, tau_c_multiples, tau_c_presets
+from simc_core.rules.simc import default_tau_c, tau_c_multiples, tau_c_presets
+from simc_core.studies.advice import slowest_useful
 
 STEPS_PER_DECADE = 20
 SAME = 1e-9  # relative; one tau_c typed and chosen
-SLOW = ": slower than the plant without a controller"
+SLOW = ": slower than the plant alone, or than 8 θ for an integrating one"
 SHORTEST, LONGEST = -1, 2  # decades of tau_c/theta on the slider
 STYLE = """<style>
 .st-key-presets, .st-key-multiples {display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem}
@@ -29,12 +30,13 @@ STYLE = """<style>
 </style>"""
 
 
-def tau_c_control(model: Model, tau_c: float, slider: bool = True) -> None:
+def tau_c_control(study: Study, slider: bool = True) -> None:
     """tau_c: slider, logarithmic and relative to theta, exact number beside it, presets below.
 
     slider=False: without it, where the live instrument has one.
     """
     st.html(STYLE)
+    model, tau_c = study.model, study.tau_c
     if isinstance(model, UnstableDelay):
         st.markdown(f"$\\tau_c = \\theta$ = **{number(tau_c)}**")
         st.caption("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24].")
@@ -53,7 +55,7 @@ def tau_c_control(model: Model, tau_c: float, slider: bool = True) -> None:
         format="%.6g",
         **state.bound("tau_c", show=lambda value: float(value or tau_c), key="tau_c_exact"),
     )
-    _presets(model, tau_c)
+    _presets(study)
 
 
 def _slider(model: Model, tau_c: float) -> None:
@@ -121,29 +123,29 @@ def settings(study: Study) -> None:
     st.code(as_text(study.controller, form), language=None)
 
 
-def _presets(model: Model, tau_c: float) -> None:
+def _presets(study: Study) -> None:
     """Multiples of theta, and the named choices of the literature; each says its tau_c."""
     with st.container(key="multiples"):
-        for factor, value in tau_c_multiples(model).items():
+        for factor, value in tau_c_multiples(study.model).items():
             name = "θ" if factor == 1 else f"{number(factor)} θ"
-            _choice(f"multiple_{number(factor)}", name, value, tau_c, model, None if factor == 1 else value)
+            _choice(f"multiple_{number(factor)}", name, value, study, tight=factor == 1)
     with st.expander("Choices of the literature"), st.container(key="presets"):
-        for name, value in tau_c_presets(model).items():
-            _choice(f"preset_{name}", name, value, tau_c, model, None if name == "tight" else value)
-    st.caption(model_in_use(model))
+        for name, value in tau_c_presets(study.model).items():
+            _choice(f"preset_{name}", name, value, study, tight=name == "tight")
+    st.caption(model_in_use(study.model))
 
 
-def _choice(key: str, name: str, value: float, tau_c: float, model: Model, given: float | None) -> None:
+def _choice(key: str, name: str, value: float, study: Study, tight: bool) -> None:
     """A button for one tau_c; a value that makes the loop slower than the plant says so."""
-    slow = value > max(plant_time(model), model.theta) * (1 + SAME)
+    slow = value > slowest_useful(study.loop.plant, study.model) * (1 + SAME)
     st.button(
         f"{name}: {number(value, 3)}" + (" (slow)" if slow else ""),
         key=key,
         width="stretch",
         help=f"τc = {number(value)}" + (SLOW if slow else ""),
-        type="primary" if math.isclose(value, tau_c, rel_tol=SAME) else "secondary",
+        type="primary" if math.isclose(value, study.tau_c, rel_tol=SAME) else "secondary",
         on_click=state.change,
-        kwargs={"tau_c": given},
+        kwargs={"tau_c": None if tight else value},
     )
 
 
