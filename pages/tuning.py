@@ -25,7 +25,7 @@ with explain_refusal():
         controls, view = st.columns([4, 11], gap="medium")
     with controls:
         mark(design.actuator, "wide")
-        tau_c_control(present.model, present.tau_c, slider=state.widget("views", VIEWS[0]) != VIEWS[0])
+        tau_c_control(present, slider=state.widget("views", VIEWS[0]) != VIEWS[0])
         structure()
         settings(present)
         pin_button(design.tuning, present.tau_c)

@@ -4,7 +4,7 @@ from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_casc
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.certificate.verdict import Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
-from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStable, ParseError, SimcError
+from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStable, ParseError, RuleEnds, SimcError
 from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.metrics.nested_performance import NestedPerformance

@@ -28,3 +28,11 @@ class FormError(SimcError):
 
 class NotStable(SimcError):
     """A quantity was asked for that only a stable loop has."""
+
+
+class RuleEnds(InvalidParameter):
+    """SIMC has no setting for this model; `change` is a change of the design that has one, {} if none is known."""
+
+    def __init__(self, message: str, change: dict | None = None):
+        super().__init__(message)
+        self.change = change or {}

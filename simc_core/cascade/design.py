@@ -20,7 +20,7 @@ from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.reduction.half_rule import half_rule
 from simc_core.rules.direct_synthesis import KINDS, direct_synthesis, numerator
-from simc_core.rules.simc import simc, tau_c_presets
+from simc_core.rules.simc import default_tau_c, simc
 from simc_core.sensitivity.nested_margins import NestedStability
 
 SEPARATE = 5.0
@@ -148,7 +148,7 @@ def _tuned(
     """SIMC controller of one loop, and its tau_c."""
     if tau_c is not None and Ms is not None:
         raise InvalidParameter(f"only one of tau_c_{loop} and Ms_{loop} may be given, got {tau_c:g} and {Ms:g}")
-    scale = next(iter(tau_c_presets(model).values()), 1.0)
+    scale = default_tau_c(model)
     if Ms is None and tau_c is None:
         tau_c = scale
 
@@ -229,7 +229,7 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
     )
     if not product.unstable_poles and product.integrators <= 2:
         model = half_rule(product, _order("kind", kind)).model
-        tau_c = next(iter(tau_c_presets(model).values()), 1.0)
+        tau_c = default_tau_c(model)
         return CascadeLoop(primary, secondary, _filtered(simc(model, tau_c), tau_c), None)
 
     def at(lambda_: float) -> NestedLoops:

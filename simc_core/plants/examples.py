@@ -93,14 +93,14 @@ EXAMPLES = (
         "SK03 E1",
         Plant(1.0, 0.0, (1.0, 0.2)),
         SK03,
-        "Two lags and no dead time: order 2 leaves theta = 0, so that tau_c is yours.",
+        "Two lags and no dead time: order 2 leaves theta = 0, so you choose tau_c.",
     ),
     Example(
         "E2",
         "SK03 E2",
         Plant(1.0, 0.0, (2.0, 1.0, 0.4, 0.2, 0.05, 0.05, 0.05), (-0.3, 0.08)),
         SK03,
-        "Rule T3, and a ratio of exactly 1.6 that doubles get wrong.",
+        "Rule T3, and a ratio of exactly 1.6 that floating-point arithmetic gets wrong.",
     ),
     Example(
         "E4", "SK03 E4", Plant(1.0, 0.0, (1.0, 1.0, 1.0, 1.0)), SK03, "Four equal lags: tau1 and tau2 change places."
@@ -110,7 +110,7 @@ EXAMPLES = (
         "SK03 E6",
         Plant(1.0, 0.0, (1.0, 1.0, 0.028), (0.17, 0.17), 1),
         SK03,
-        "An integrator and two zeros, several self-consistent delays. Printed for PI: theta 1.69, all lags whole.",
+        "An integrator and two zeros, several self-consistent delays. Printed for PI: theta 1.69, all lags in full.",
     ),
     Example("E7", "SK03 E7", Plant(1.0, 0.0, (1.0, 1.0, 1.0), (-2.0,)), SK03, "A large inverse response."),
     Example("E9", "SK03 E9", Plant(1.0, 1.0, (1.0, 1.0)), SK03, "Two equal lags and as much dead time."),
@@ -129,7 +129,9 @@ EXAMPLES = (
         "tau_I = 8 theta = tau1: both bounds meet.",
     ),
     Example("delay", "FOPDT, delay dominant", Plant(1.0, 1.0, (0.1,)), "[SG12]", "Almost pure dead time."),
-    Example("integrating", "Integrating", Plant(1.0, 1.0, integrators=1), "[SK03] Table 3, case 2", "A slow level."),
+    Example(
+        "integrating", "Integrating", Plant(1.0, 1.0, integrators=1), "[SK03] Table 3, case 2", "Such as a tank level."
+    ),
     Example(
         "double",
         "Double integrating",
@@ -143,7 +145,7 @@ EXAMPLES = (
         "Oscillating",
         Plant(1.0, 1.0, lag_pairs=((4.0, 0.3),)),
         "[SK98], rule for zeta < 1",
-        "Set-point steps are smooth, input disturbances keep ringing.",
+        "Set-point steps and input disturbances both ring: the controller cancels the poles, it does not damp them.",
     ),
     Example(
         "unstable",

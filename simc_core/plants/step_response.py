@@ -5,6 +5,7 @@ x' = A x + B with constant input, and [x; 1] moves from one instant to the next 
 The grid is uniform; the dead time shifts it by a first step of another length, never by rounding to the grid.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ from simc_core.algebra.state_space import chain
 from simc_core.plants.plant import Plant
 
 POINTS = 600
+RISEN = 1 - math.exp(-1)
 SETTLED = 4.0  # spreads of the decay after which a stable response is at rest to 2 %
 GROWN = 3.0  # time constants of an unstable pole that are shown
 MOST_PERIODS = 15.0  # of an oscillation that hardly decays
@@ -51,6 +53,21 @@ def plant_step(plant: Plant, t_end: float | None = None) -> PlantStep:
             y[i] = C @ state[:n] + D
             state = advance @ state
     return PlantStep(t, y)
+
+
+def rise_time(plant: Plant) -> float:
+    """When the unit step response first reaches 63 % of its end, dead time included; math.inf where it has no end."""
+    if plant.integrators or plant.unstable_poles or any(zeta <= 0 for _, zeta in plant.lag_pairs):
+        return math.inf
+    alone = plant_step(plant)
+    reached = np.flatnonzero(alone.y / plant.k >= RISEN)
+    if not reached.size:
+        return math.inf
+    i = int(reached[0])
+    if i == 0 or alone.t[i - 1] < plant.theta:
+        return float(alone.t[i])
+    level = [float(alone.y[j] / plant.k) for j in (i - 1, i)]
+    return float(np.interp(RISEN, level, alone.t[i - 1 : i + 1]))
 
 
 def step_horizon(plant: Plant) -> float:

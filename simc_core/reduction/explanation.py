@@ -12,7 +12,7 @@ from simc_core.plants.models import (
     UnstableDelay,
 )
 from simc_core.reduction.dynamics import Dynamics
-from simc_core.reduction.records import LARGEST_MS, Candidate, Share, Step
+from simc_core.reduction.records import LARGEST_MS, Candidate, Orders, Share, Step
 from simc_core.reduction.split import Outcome
 from simc_core.reduction.zeros import Match
 
@@ -77,24 +77,23 @@ def budget(parts: Dynamics, outcome: Outcome, h: float) -> tuple[Share, ...]:
     return (*shares, *parts.cancelled)
 
 
-def notes(parts: Dynamics, model: Model, order: int, second: Model, pays: bool | None) -> tuple[str, ...]:
+def notes(parts: Dynamics, model: Model, order: int, orders: Orders | None) -> tuple[str, ...]:
     """Advice in sentences."""
     said = []
-    if pays is not None:
-        comparison = f"tau2 = {number(second.tau2)}, theta = {number(second.theta)} of the second-order model"
-        verdict = "pays: tau2 > theta" if pays else "does not pay: tau2 is not larger than theta"
-        said.append(f"Derivative action (order 2) {verdict} ({comparison}).")
+    if orders is not None and not math.isnan(orders.ratio):
+        said.append(of_orders(orders))
     match model:
         case DoubleIntegratingDelay():
             said.append("Two integrators need derivative action: the model is the same for order 1 and 2.")
         case OscillatingDelay():
             said.append(
                 "The oscillating pair is kept whatever the order; its rule is a PID in ideal form. "
-                "Input disturbances stay oscillatory for small zeta, since the controller cancels the pair."
+                "The controller cancels the pair and does not damp it: with D on the measurement, set-point steps and "
+                "input disturbances both ring with the damping of the open plant."
             )
         case UnstableDelay() if order == 1 and parts.lags:
             said.append(
-                "Beside an unstable pole order 1 puts every lag into the delay whole; order 2 keeps the largest."
+                "With an unstable pole, order 1 adds every lag in full to the dead time; order 2 keeps the largest."
             )
         case FirstOrderDelay(tau1=0.0):
             said.append("No lag is left: pure dead time, whose SIMC controller is a pure integrator.")
@@ -102,10 +101,22 @@ def notes(parts: Dynamics, model: Model, order: int, second: Model, pays: bool |
         said.append("There is no second lag: the model is of first order and its controller a PI.")
     if model.theta == 0:
         said.append(
-            "The effective delay is 0: tau_c = theta is no choice here, give tau_c yourself. "
-            "What limits the speed is not in this model."
+            "The effective dead time is 0: tau_c = theta is no choice here, choose tau_c yourself. "
+            "Nothing in this model limits the speed."
         )
     return tuple(said)
+
+
+def of_orders(orders: Orders) -> str:
+    """Whether order 2 pays, in numbers."""
+    measured = "Load error tau_I/Kc of the tuning with Ms = 1.6 around the full plant"
+    if math.isinf(orders.first):
+        return "Derivative action (order 2) pays: order 1 does not reach Ms = 1.6 around the full plant, order 2 does."
+    if math.isinf(orders.second):
+        return "Derivative action (order 2) does not pay: it never has Ms = 1.6 around the full plant, order 1 has."
+    verdict = "pays" if orders.second_pays else "does not pay" if orders.ratio <= 1 else "brings little"
+    numbers = f"{number(orders.first, 3)} with order 1, {number(orders.second, 3)} with order 2"
+    return f"Derivative action (order 2) {verdict}. {measured}: {numbers}."
 
 
 def _match_step(match: Match, theta: float) -> Step:
@@ -189,31 +200,35 @@ def _delay_step(parts: Dynamics, outcome: Outcome, h: float, theta: float) -> St
         total += f" = {latex_number(theta)}"
     sources = [
         *(["the dead time"] if parts.theta else []),
-        *(["what the lags leave"] if any(kind == "lag" for kind, _ in terms) else []),
+        *(["the rest of the lags"] if any(kind == "lag" for kind, _ in terms) else []),
         *(["the right-half-plane zeros"] if parts.inverse else []),
         *(["half the sampling period"] if h else []),
     ]
-    text = f"Effective delay: {', '.join(sources) or 'nothing adds to it'}"
+    text = f"Effective dead time: {', '.join(sources) or 'nothing adds to it'}"
     text += ", less the small zeros." if subtracted else "."
     return Step("delay", text, rf"\theta = {total}", {"theta": theta})
 
 
 def _choice_step(candidates: tuple[Candidate, ...], chosen: Candidate) -> Step:
     others = ", ".join(_described(candidate) for candidate in candidates if not candidate.chosen)
-    if chosen.Ms <= LARGEST_MS:
-        why = "it is the smallest delay > 0 whose SIMC loop (tau_c = theta) round the original plant has Ms <= 2"
+    if math.isfinite(chosen.load_error):
+        why = "at Ms = 1.6 around the full plant its SIMC loop has the smallest load error"
+    elif chosen.Ms <= LARGEST_MS:
+        why = "it is the smallest delay > 0 whose SIMC loop (tau_c = theta) around the full plant has Ms <= 2"
     elif math.isfinite(chosen.Ms):
-        why = "no delay gives a SIMC loop with Ms <= 2 round the original plant; this one has the smallest Ms"
+        why = "no delay gives a SIMC loop with Ms <= 2 around the full plant; this one has the smallest Ms"
     else:
-        why = "no delay gives a stable SIMC loop round the original plant; this is the most cautious one"
+        why = "no delay gives a stable SIMC loop around the full plant; this is the most cautious one"
     text = f"The rules T1-T3 hold for more than one delay: also for {others}. "
-    text += f"Taken is theta = {_described(chosen)}: {why}."
+    text += f"Chosen is theta = {_described(chosen)}: {why}."
     equation = r"\theta \in \{" + ",\\ ".join(latex_number(candidate.theta) for candidate in candidates) + r"\}"
     return Step("choice", text, equation, {"theta": chosen.theta, "Ms": chosen.Ms})
 
 
 def _described(candidate: Candidate) -> str:
-    peak = f"Ms {number(candidate.Ms, 3)}" if math.isfinite(candidate.Ms) else "no stable SIMC loop"
+    peak = f"tight Ms {number(candidate.Ms, 3)}" if math.isfinite(candidate.Ms) else "no stable SIMC loop"
+    if math.isfinite(candidate.load_error):
+        peak += f", load error at Ms 1.6 {number(candidate.load_error, 3)}"
     if candidate.theta == 0:
         peak = "no tau_c = theta"
     return f"{number(candidate.theta)} ({peak})"

@@ -28,6 +28,7 @@ from simc_core.loops.loop import Loop
 from simc_core.plants.models import IntegratingDelay, Model, SecondOrderDelay
 from simc_core.plants.plant import Plant
 from simc_core.reduction.dynamics import Dynamics, dynamics
+from simc_core.reduction.equal_peak import at_equal_peak, compare_orders
 from simc_core.reduction.explanation import budget, notes, steps
 from simc_core.reduction.records import LARGEST_MS, Candidate, Reduction
 from simc_core.reduction.split import Outcome, delay_of, model_of, resolved, shape_of
@@ -46,8 +47,9 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     """Reduce `plant` to a model of `order` 1 (PI) or 2 (PID); h: sampling period of a digital controller.
 
     rules: "2003" (T1-T3) or "1998" (small zeros subtracted from theta) for positive numerator time constants.
-    Of several self-consistent delays the smallest > 0 is taken whose SIMC loop at tau_c = theta has Ms <= 2
-    round the ORIGINAL plant; all others are in `alternatives` and `candidates`.
+    Of several self-consistent delays > 0 the one is taken whose SIMC loop round the ORIGINAL plant has the smallest
+    load error tau_I/Kc at Ms = 1.6; where none has that Ms, the smallest with Ms <= 2 at tau_c = theta. All others
+    are in `alternatives` and `candidates`.
     Raises NotReducible for plants without a SIMC model, InvalidParameter for order, h or rules out of bounds.
     """
     order = checks.whole("order", order, 1, 2)
@@ -57,21 +59,24 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     parts = dynamics(plant)
     candidates, outcome = _reduce(plant, parts, order, h, rules)
     chosen = next(candidate for candidate in candidates if candidate.chosen)
-    other = chosen.model if order == 2 else _second_order(plant, parts, h, rules)
-    pays = other.tau2 > other.theta if isinstance(other, SecondOrderDelay | IntegratingDelay) else None
+    other = chosen.model if order == 2 else _chosen(plant, parts, 2, h, rules)
+    orders = None
+    if isinstance(other, SecondOrderDelay | IntegratingDelay):
+        first = chosen.model if order == 1 else _chosen(plant, parts, 1, h, rules)
+        orders = compare_orders(plant, first, other)
     return Reduction(
         chosen.model,
         steps(parts, outcome, h, candidates),
         tuple(candidate.model for candidate in candidates if not candidate.chosen),
         budget(parts, outcome, h),
         candidates,
-        notes(parts, chosen.model, order, other, pays),
-        pays,
+        notes(parts, chosen.model, order, orders),
+        orders,
     )
 
 
-def _second_order(plant: Plant, parts: Dynamics, h: float, rules: str) -> Model:
-    candidates, _ = _reduce(plant, parts, 2, h, rules)
+def _chosen(plant: Plant, parts: Dynamics, order: int, h: float, rules: str) -> Model:
+    candidates, _ = _reduce(plant, parts, order, h, rules)
     return next(candidate.model for candidate in candidates if candidate.chosen)
 
 
@@ -161,16 +166,24 @@ def _nearest(probed: list[tuple[float, Outcome]]) -> Outcome:
 
 
 def _choose(plant: Plant, models: list[Model]) -> tuple[Candidate, ...]:
-    """Candidates with Ms; the smallest theta > 0 with Ms <= 2, else the smallest Ms, else the largest theta."""
+    """Candidates with Ms and load error; the smallest error of those with theta > 0 and a finite tight Ms.
+
+    Where no error is known: the smallest theta > 0 with Ms <= 2, else the smallest Ms, else the largest theta.
+    """
     if len(models) == 1:
-        return (Candidate(models[0].theta, models[0], math.nan, True),)
+        return (Candidate(models[0].theta, models[0], math.nan, math.nan, True),)
     peaks = [_tight_Ms(plant, model) for model in models]
-    good = [i for i, Ms in enumerate(peaks) if Ms <= LARGEST_MS]
     finite = [i for i, Ms in enumerate(peaks) if math.isfinite(Ms)]
-    chosen = good[0] if good else min(finite, key=lambda i: peaks[i], default=len(models) - 1)
-    return tuple(
-        Candidate(model.theta, model, Ms, i == chosen) for i, (model, Ms) in enumerate(zip(models, peaks, strict=True))
-    )
+    found = [at_equal_peak(plant, model) for model in models]
+    errors = [math.nan if each is None else each.load_error for each in found]
+    compared = [i for i in finite if math.isfinite(errors[i])]
+    good = [i for i in finite if peaks[i] <= LARGEST_MS]
+    if compared:
+        chosen = min(compared, key=lambda i: errors[i])
+    else:
+        chosen = good[0] if good else min(finite, key=lambda i: peaks[i], default=len(models) - 1)
+    rows = zip(models, peaks, errors, strict=True)
+    return tuple(Candidate(model.theta, model, Ms, error, i == chosen) for i, (model, Ms, error) in enumerate(rows))
 
 
 def _tight_Ms(plant: Plant, model: Model) -> float:

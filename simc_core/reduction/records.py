@@ -1,9 +1,11 @@
 """Records of a model reduction: the model, how it came about, and what became of every time constant."""
 
+import math
 from dataclasses import dataclass, field
 
 from simc_core.plants.models import Model
 
+PAYS = 1.5  # two lags with tau2 = theta, the limit of [SK03 sect. 3.1]: order 1 has 1.5 times the delay of order 2
 LARGEST_MS = 2.0  # [SK03]: Ms should be below about 2; 1.4 to 1.7 is usual
 
 
@@ -43,13 +45,38 @@ class Candidate:
     """A self-consistent effective delay, its model, and Ms of its tight SIMC loop round the original plant.
 
     Ms: math.nan where that loop is not stable, where there is no such controller, or where only one candidate
-    exists and nothing had to be decided.
+    exists and nothing had to be decided.   load_error: tau_I/Kc of its SIMC loop with Ms = 1.6 round the original
+    plant, math.nan where there is none.
     """
 
     theta: float
     model: Model
     Ms: float
+    load_error: float
     chosen: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Orders:
+    """Load errors tau_I/Kc of the SIMC loops of both orders round the full plant, each with Ms = 1.6.
+
+    math.inf where no tau_c gives that Ms.
+    """
+
+    first: float
+    second: float
+
+    @property
+    def ratio(self) -> float:
+        """How many times smaller the load error is with order 2; math.nan where neither loop has that Ms."""
+        if math.isinf(self.first) and math.isinf(self.second):
+            return math.nan
+        return self.first / self.second
+
+    @property
+    def second_pays(self) -> bool:
+        """Whether derivative action (order 2) makes the load error at least 1.5 times smaller."""
+        return self.ratio >= PAYS
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +85,8 @@ class Reduction:
 
     model: the reduced model.   steps: what was done, in order.   alternatives: the other self-consistent models.
     budget: one Share per time constant.   candidates: all self-consistent delays, smallest first.   notes: advice.
-    order_two_pays: tau2 of the second-order model > theta of it; None where the model has a form of its own.
+    orders: what order 1 and order 2 are worth; None where the model has one form whatever the order, or an unstable
+    pole.
     """
 
     model: Model
@@ -67,4 +95,4 @@ class Reduction:
     budget: tuple[Share, ...]
     candidates: tuple[Candidate, ...]
     notes: tuple[str, ...]
-    order_two_pays: bool | None
+    orders: Orders | None

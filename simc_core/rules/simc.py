@@ -30,6 +30,7 @@ from simc_core.plants.models import (
 )
 
 A_THETA_LIMIT = 0.5  # the rule for unstable poles ends here; the plant itself can be stabilised up to a theta = 1
+MULTIPLES = (1.0, 1.5, 2.0, 3.0)
 SAME_TAU_C = 1e-6  # relative; a tau_c that came through a link's decimal text still counts as theta
 
 
@@ -80,6 +81,22 @@ def tau_c_presets(model: Model) -> dict[str, float]:
         "conservative": max(10 * tau1, 80 * model.theta),
     }
     return {name: tau_c for name, tau_c in presets.items() if tau_c > 0}
+
+
+def default_tau_c(model: Model) -> float:
+    """tau_c where none is given: tight; for a model without dead time the first choice there is, else 1."""
+    return next(iter(tau_c_presets(model).values()), 1.0)
+
+
+def tau_c_multiples(model: Model) -> dict[float, float]:
+    """Choices of tau_c that engineers use: 1, 1.5, 2 and 3 theta, by their factor.
+
+    Without dead time there are none; an unstable model has theta alone.
+    """
+    if not model.theta:
+        return {}
+    factors = (1.0,) if isinstance(model, UnstableDelay) else MULTIPLES
+    return {factor: factor * model.theta for factor in factors}
 
 
 def unstable_factor(a_theta: float) -> float:

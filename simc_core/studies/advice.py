@@ -1,12 +1,18 @@
-"""Guards that speak: what to look at in a tuning, why, and one thing to do. Each rule is one function."""
+"""Guards that speak: what to look at in a tuning, why, and one thing to do, as a change of the design that was tried.
+
+Each guard is one function of the design; making its change ends it.
+"""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
 
-from simc_core.controllers.forms import Controller
+from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import FormError
 from simc_core.notation import number
 from simc_core.plants.models import (
+    DoubleIntegratingDelay,
     FirstOrderDelay,
     IntegratingDelay,
     Model,
@@ -14,79 +20,212 @@ from simc_core.plants.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
-from simc_core.reduction.records import LARGEST_MS, Reduction
+from simc_core.plants.plant import Plant
+from simc_core.plants.step_response import rise_time
+from simc_core.reduction.equal_peak import load_error
+from simc_core.reduction.explanation import of_orders
+from simc_core.reduction.records import LARGEST_MS
+from simc_core.studies.remedies import calmer, filter_that_costs_little
+from simc_core.studies.tuned import Tuned
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
+SLOW_INTEGRATING = 8.0  # tau_c/theta of the "moderate" choice [V06 eq. 7]; an integrating plant has no time of its own
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4
 SOLVED = 1e-6  # a loop designed for Ms = 2 has it to this
 ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
+LEVELS = ("error", "warning", "note")
+BY_MODEL = {
+    DoubleIntegratingDelay: "Two integrators need derivative action: the rule for this plant is a PID.",
+    OscillatingDelay: "The rule for an oscillating plant is a PID, in ideal form.",
+}
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """quantity with its value, the limit it is held against, what that means, and one thing to do about it.
+    """One thing to look at.
 
-    level: "warning" or "note".
+    level: one of LEVELS.   quantity: its name; value: its number, nan where it has none.   limit: what it is held
+    against, nan where there is nothing of the kind; at_least: which side of the limit is the good one.
+    text: what that means.   remedy: what to do, in words.   change: the same as a change of the design, {} where no
+    setting helps.
     """
 
     level: str
     quantity: str
-    limit: str
     text: str
-    remedy: str
+    value: float = math.nan
+    limit: float = math.nan
+    at_least: bool = False
+    remedy: str = ""
+    change: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def headline(self) -> str:
+        """Quantity, value and limit, as "Ms = 2.31, should be at most 2"."""
+        said = self.quantity if math.isnan(self.value) else f"{self.quantity} = {number(self.value, 3)}"
+        if math.isnan(self.limit):
+            return said
+        return f"{said}, should be at {'least' if self.at_least else 'most'} {number(self.limit, 3)}"
 
 
-def advice(
-    model: Model,
-    controller: Controller,
-    Ms: float,
-    PM_deg: float,
-    tau_c: float | None = None,
-    reduction: Reduction | None = None,
-) -> tuple[Advice, ...]:
-    """All that apply, warnings first. Ms, PM_deg: of the loop round the full plant, nan where it is not stable."""
-    found = [
-        large_Ms(Ms),
-        deceptive_PM(PM_deg, Ms),
-        slow_oscillation(model, controller),
-        hard_unstable_pole(model),
-        faster_than_dead_time(model, tau_c),
-        derivative_noise(controller),
-        oscillating_disturbance(model),
-        order_two(model, reduction),
-    ]
-    return tuple(sorted((item for item in found if item), key=lambda item: item.level, reverse=True))
+def advice(of: Tuned) -> tuple[Advice, ...]:
+    """All that applies to a design, the gravest first."""
+    found = [item for guard in GUARDS if (item := guard(of))]
+    return tuple(sorted(found, key=lambda item: LEVELS.index(item.level)))
 
 
-def large_Ms(Ms: float) -> Advice | None:
+def not_stable(of: Tuned) -> Advice | None:
+    """No stable loop."""
+    if of.margins.stable:
+        return None
+    change, gives = calmer(of)
+    remedy = f"{in_words(change)}: {gives}." if change else _no_way(of)
+    text = "The loop is not stable, so it has neither margins nor IAE."
+    return Advice("error", "Not stable", text, remedy=remedy, change=change)
+
+
+def large_Ms(of: Tuned) -> Advice | None:
     """Ms > 2."""
+    Ms, PM = of.margins.Ms, of.margins.PM_deg
     if not Ms > LARGEST_MS * (1 + SOLVED):
         return None
-    return Advice(
-        "warning",
-        f"Ms = {number(Ms, 3)}",
-        f"Ms <= {LARGEST_MS:g}",
-        "The loop comes too close to -1: it is sensitive to errors of the model and amplifies some disturbances.",
-        "Increase tau_c.",
-    )
+    text = "L passes close to -1: small errors of the model can make the loop unstable."
+    if PM >= GOOD_PM:
+        text += f" The phase margin ({number(PM, 3)} deg) hides it: it looks at one frequency only."
+    if isinstance(of.model, UnstableDelay) and of.model.a * of.model.theta >= HARD_A_THETA:
+        text += f" The dead time is long for this pole: a theta = {number(of.model.a * of.model.theta, 3)}, limit 0.5."
+    change, gives = calmer(of)
+    remedy = f"{in_words(change)}: {gives}." if change else _no_way(of)
+    return Advice("warning", "Ms", text, Ms, LARGEST_MS, remedy=remedy, change=change)
 
 
-def deceptive_PM(PM_deg: float, Ms: float) -> Advice | None:
-    """A good phase margin with a bad Ms."""
-    if not (PM_deg >= GOOD_PM and Ms > LARGEST_MS):
+def faster_than_dead_time(of: Tuned) -> Advice | None:
+    """tau_c < theta, where it costs robustness."""
+    theta, tau_c = of.model.theta, of.tau_c
+    if tau_c >= theta * (1 - ROUNDING) or not of.margins.stable:
         return None
-    return Advice(
-        "warning",
-        f"PM = {number(PM_deg, 3)} deg with Ms = {number(Ms, 3)}",
-        f"Ms <= {LARGEST_MS:g}",
-        "The phase margin looks good, but it is taken at one frequency only; L passes -1 closely at another one.",
-        "Judge by Ms, not by the phase margin; increase tau_c.",
+    tight = of.at(theta)
+    if not tight.margins.Ms < of.margins.Ms:
+        return None
+    text = (
+        f"This is faster than the tight setting tau_c = theta. Ms is {number(of.margins.Ms, 3)}, "
+        f"with tau_c = theta it is {number(tight.margins.Ms, 3)}."
     )
+    return Advice("note", "tau_c", text, tau_c, theta, True, "Take tau_c = theta.", {"tau_c": None})
+
+
+def slower_than_plant(of: Tuned) -> Advice | None:
+    """The closed loop slower than the plant is without a controller; for integrating plants, slower than usual."""
+    if isinstance(of.model, UnstableDelay):
+        return None
+    limit = slowest_useful(of.plant, of.model)
+    if not of.tau_c > limit * (1 + ROUNDING):
+        return None
+    if of.plant.integrators:
+        worse = load_error(of.controller) / load_error(of.at(of.model.theta).controller)
+        text = f"Sluggish: the load error tau_I/Kc is {number(worse, 3)} times that of tau_c = theta."
+    else:
+        text = (
+            "Sluggish: set-point steps take longer than a step of the plant without a controller, "
+            f"which reaches 63 % after {number(rise_time(of.plant), 3)}."
+        )
+    change = {"tau_c": limit}
+    return Advice("note", "tau_c", text, of.tau_c, limit, remedy=in_words(change) + ", or less.", change=change)
+
+
+def slowest_useful(plant: Plant, model: Model) -> float:
+    """The largest tau_c with which the loop is not slower than the plant alone, and theta at least.
+
+    The loop reaches 63 % after theta + tau_c. An integrating plant has no time of its own: 8 theta [V06 eq. 7].
+    """
+    theta = model.theta
+    if plant.integrators:
+        return SLOW_INTEGRATING * theta or math.inf
+    return max(rise_time(plant) - theta, theta) or math.inf
+
+
+def derivative_noise(of: Tuned) -> Advice | None:
+    """Derivative action without a filter, or the noise gain Kd/tau_F with it."""
+    form = of.controller.to_parallel()
+    if not form.Kd:
+        return None
+    if form.tau_F:
+        gain = abs(form.Kd) / form.tau_F
+        times = f", {number(gain / abs(form.Kp), 3)} times Kp" if form.Kp else ""
+        text = f"Fast measurement noise reaches the input with this gain{times}. A larger tau_F lowers it."
+        return Advice("note", "Noise gain Kd/tau_F", text, gain)
+    change, Ms = filter_that_costs_little(of)
+    tau_F = change["filter"] * of.controller.tau_D
+    remedy = f"Set tau_F/tau_D = {number(change['filter'])}, tau_F = {number(tau_F, 3)}"
+    remedy += f": Ms becomes {number(Ms, 3)}." if math.isfinite(Ms) else "."
+    text = "The derivative has no filter: measurement noise passes without limit."
+    return Advice("warning", "tau_F = 0", text, remedy=remedy, change=change)
+
+
+def oscillating_plant(of: Tuned) -> Advice | None:
+    """The rule for oscillating models cancels the poles: nothing damps them."""
+    if not isinstance(of.model, OscillatingDelay):
+        return None
+    text = (
+        "The controller cancels the oscillating poles and does not damp them. D acts on the measurement, "
+        "so both set-point steps and disturbances at the plant input ring with the damping of the open plant."
+    )
+    return Advice("note", "zeta", text, of.model.zeta, remedy="If that matters, damp the plant by an inner loop.")
+
+
+def order_two(of: Tuned) -> Advice | None:
+    """Whether derivative action pays, by the load errors at equal Ms."""
+    orders = of.reduction.orders
+    if orders is None or math.isnan(orders.ratio):
+        return None
+    derivative = delivered(of.controller) == "PID"
+    if orders.second_pays and of.order == 1:
+        return Advice("note", "PI", of_orders(orders), remedy="Take PID.", change={"order": 2})
+    if not orders.second_pays and of.order == 2 and derivative:
+        return Advice("note", "PID", of_orders(orders), remedy="PI will do.", change={"order": 1})
+    return None
+
+
+def other_than_chosen(of: Tuned) -> Advice | None:
+    """PI chosen and PID delivered, or the reverse."""
+    chosen, got = ("PI", "PID")[of.order - 1], delivered(of.controller)
+    if chosen == got:
+        return None
+    quantity = f"{chosen} chosen, {got} delivered"
+    if got == "I":
+        return Advice("note", quantity, "The model is pure dead time: its SIMC controller is a pure integrator, K_I/s.")
+    if got == "PID":
+        text = BY_MODEL[type(of.model)]
+        return Advice("note", quantity, text, remedy="Choose PID; the settings stay as they are.", change={"order": 2})
+    text = "The model has no second lag: tau_D = 0, and the controller is a PI."
+    return Advice("note", quantity, text, remedy="Choose PI.", change={"order": 1})
+
+
+GUARDS: tuple[Callable[[Tuned], Advice | None], ...] = (
+    not_stable,
+    large_Ms,
+    derivative_noise,
+    faster_than_dead_time,
+    slower_than_plant,
+    order_two,
+    other_than_chosen,
+    oscillating_plant,
+)
+
+
+def delivered(controller: Controller) -> str:
+    """What the controller is: I, PI or PID."""
+    if isinstance(controller, IController):
+        return "I"
+    return "PID" if controller.tau_D else "PI"
 
 
 def slow_oscillation(model: Model, controller: Controller) -> Advice | None:
-    """Kc k' tau_I < 4 with tau_I < tau1: oscillation of period above 25 theta [SK98; SK03 eq. 22; SG12]."""
+    """Kc k' tau_I < 4 with tau_I < tau1: oscillation of period above 25 theta [SK98; SK03 eq. 22; SG12].
+
+    SIMC settings are never below the limit; settings of one's own may be. The change is one of the controller.
+    """
     match model:
         case IntegratingDelay():
             slope, tau1 = model.k_prime, math.inf
@@ -103,94 +242,25 @@ def slow_oscillation(model: Model, controller: Controller) -> Advice | None:
     product = series.Kc * slope * series.tau_I
     if product >= SLOW_LIMIT * (1 - ROUNDING) or product < 0:
         return None
-    return Advice(
-        "warning",
-        f"Kc k' tau_I = {number(product, 3)}",
-        f"Kc k' tau_I >= {SLOW_LIMIT:g}",
-        "The gain is too LOW for this much integral action: slow oscillation.",
-        f"Raise Kc or tau_I until Kc tau_I >= {number(SLOW_LIMIT / abs(slope), 3)}.",
-    )
+    Kc = SLOW_LIMIT / (slope * series.tau_I)
+    text = "The gain is too low for so short an integral time: slow oscillation."
+    remedy = f"Raise Kc to {number(Kc, 3)}, or tau_I until Kc tau_I = {number(SLOW_LIMIT / abs(slope), 3)}."
+    return Advice("warning", "Kc k' tau_I", text, product, SLOW_LIMIT, True, remedy, {"Kc": Kc})
 
 
-def hard_unstable_pole(model: Model) -> Advice | None:
-    """a theta near the end of the rule at 0.5 [SK98]: Ms 1.80, 2.06, 4.62 at a theta = 0.1, 0.25, 0.4."""
-    if not isinstance(model, UnstableDelay) or model.a * model.theta < HARD_A_THETA:
-        return None
-    return Advice(
-        "warning",
-        f"a theta = {number(model.a * model.theta, 3)}",
-        "a theta < 0.5",
-        "The dead time is long for this unstable pole: the rule ends at 0.5, and Ms is large well before that.",
-        "Shorten the dead time, or close a fast inner loop round the unstable part.",
-    )
+def in_words(change: dict[str, Any]) -> str:
+    """A change of the design as an order, as "Take tau_c = 9"."""
+    said = []
+    if "order" in change:
+        said.append(("PI", "PID")[change["order"] - 1])
+    if "tau_c" in change:
+        said.append("tau_c = " + ("theta" if change["tau_c"] is None else number(change["tau_c"], 4)))
+    if "filter" in change:
+        said.append(f"tau_F/tau_D = {number(change['filter'])}")
+    return "Take " + " with ".join(said)
 
 
-def faster_than_dead_time(model: Model, tau_c: float | None) -> Advice | None:
-    """tau_c < theta."""
-    if tau_c is None or tau_c >= model.theta * (1 - ROUNDING):
-        return None
-    return Advice(
-        "note",
-        f"tau_c = {number(tau_c, 3)}",
-        f"tau_c >= theta = {number(model.theta, 3)}",
-        "Faster than the tight setting of the rule: robustness is lost quickly for little speed.",
-        "Take tau_c = theta unless Ms says that there is room.",
-    )
-
-
-def derivative_noise(controller: Controller) -> Advice | None:
-    """Derivative action without a filter, or the noise gain Kd/tau_F with it."""
-    form = controller.to_parallel()
-    if not form.Kd:
-        return None
-    if form.tau_F:
-        gain = abs(form.Kd) / form.tau_F
-        times = f" ({number(gain / abs(form.Kp), 3)} times Kp)" if form.Kp else ""
-        return Advice(
-            "note",
-            f"noise gain Kd/tau_F = {number(gain, 3)}",
-            "what the actuator bears",
-            f"Fast measurement noise reaches the input with this gain{times}.",
-            "A larger tau_F lowers it; up to about tau_D/10 it costs little robustness.",
-        )
-    return Advice(
-        "warning",
-        "tau_F = 0 with derivative action",
-        "tau_F > 0",
-        "Without a filter the noise gain Kd/tau_F is infinite; no real controller has that.",
-        f"Set tau_F, for instance tau_D/10 = {number(form.Kd / form.Kp / 10, 3)}." if form.Kp else "Set tau_F.",
-    )
-
-
-def oscillating_disturbance(model: Model) -> Advice | None:
-    """The rule for oscillating models cancels the poles; an input disturbance still excites them."""
-    if not isinstance(model, OscillatingDelay):
-        return None
-    return Advice(
-        "note",
-        f"zeta = {number(model.zeta, 3)}",
-        "zeta near 1",
-        "The controller cancels the oscillating poles: set-point steps are smooth, but disturbances at the plant input "
-        "ring with the damping of the open plant.",
-        "If such disturbances matter, damp the plant by an inner loop.",
-    )
-
-
-def order_two(model: Model, reduction: Reduction | None) -> Advice | None:
-    """Whether derivative action pays: tau2 > theta of the second-order model."""
-    if reduction is None or reduction.order_two_pays is None:
-        return None
-    of_order_two = isinstance(model, SecondOrderDelay) or (isinstance(model, IntegratingDelay) and model.tau2 > 0)
-    if reduction.order_two_pays and not of_order_two:
-        return Advice(
-            "note",
-            "PI",
-            "tau2 <= theta",
-            "The second-order model has tau2 > theta: derivative action pays.",
-            "Try PID.",
-        )
-    if not reduction.order_two_pays and of_order_two:
-        return Advice(
-            "note", "PID", "tau2 > theta", "tau2 is not above theta: derivative action brings little.", "PI will do."
-        )
-    return None
+def _no_way(of: Tuned) -> str:
+    if isinstance(of.model, UnstableDelay):
+        return "Shorten the dead time, or close a fast inner loop around the unstable part (cascade)."
+    return "No SIMC setting of this plant was found with Ms of at most 2."

@@ -97,12 +97,22 @@ def test_the_slider_the_exact_number_and_the_presets_set_one_tau_c():
     assert address(app)["tau_c"] == "9.25"
     assert copied(app)["Kc"] == pytest.approx(8 / (9.25 + 7))
     app.button(key="preset_moderate").click().run()
-    assert float(address(app)["tau_c"]) == pytest.approx(56)  # max(tau1, 8 theta)
+    assert "tau_c" not in address(app)
+    assert address(app)["speed"] == "moderate"  # the choice is kept, not its seconds
+    assert app.number_input(key="tau_c_exact").value == pytest.approx(56)  # max(tau1, 8 theta)
     app.select_slider(key="tau_c_slider").set_value(0.1).run()
     assert app.number_input(key="tau_c_exact").value == pytest.approx(0.7)
     app.button(key="preset_tight").click().run()
-    assert "tau_c" not in address(app)
+    assert not {"tau_c", "speed"} & set(address(app))
     assert copied(app)["Kc"] == pytest.approx(8 / 14)
+
+
+def test_a_choice_of_speed_goes_with_the_plant():
+    """1.5 theta on a plant of minutes is 1.5 theta on one of milliseconds, not 600 of them."""
+    app = tuned(speed="1.5theta")
+    assert copied(app)["Kc"] == pytest.approx(8 / (1.5 * 7 + 7))
+    fast = run_page("tuning", plant="0.8exp(-0.3s)/(4s+1)", speed="1.5theta")
+    assert copied(fast)["Kc"] == pytest.approx(4 / (0.8 * 2.5 * 0.3))
 
 
 def test_a_pinned_design_stays_what_it_was_and_is_drawn_and_listed():
@@ -139,8 +149,8 @@ def test_the_same_design_is_not_pinned_twice():
 
 
 def test_derivative_action_without_a_filter_is_called_by_its_name():
-    assert "noise gain" in texts(tuned(order="2"))
-    assert "noise gain $K_d$/$\\tau_F$ = 7.5" in texts(tuned(order="2", filter="0.1"))
+    assert "derivative has no filter" in texts(tuned(order="2"))
+    assert "Noise gain $K_d$/$\\tau_F$ = 7.5" in texts(tuned(order="2", filter="0.1"))
 
 
 def test_the_set_point_weight_changes_the_response_and_not_the_margins():

@@ -20,12 +20,12 @@ VERDICTS = {
     "good": (st.success, "**Good enough.** The error uses at most half of what this loop can bear"),
     "usable": (
         st.info,
-        "**Usable.** The loop is certain to be stable, but it will differ visibly from what the model promises",
+        "**Usable.** Stability is guaranteed; the response will differ visibly from the model's",
     ),
     "not certain": (
         st.warning,
-        "**Not certain.** The error exceeds what the bound allows, which is sufficient, not necessary: "
-        "the tuning page judges the loop round the full plant. Take a larger $\\tau_c$ or order 2",
+        "**Not guaranteed.** The model error exceeds the bound; the bound is sufficient, not necessary: "
+        "the tuning page judges the loop around the full plant",
     ),
 }
 
@@ -35,7 +35,7 @@ def choices() -> None:
     order, h, rules = st.columns([3, 2, 4], vertical_alignment="bottom")
     order.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
     h.number_input(
-        "Sampling h",
+        "Sampling allowed for in θ",
         0.0,
         1e9,
         format="%.4g",
@@ -65,7 +65,7 @@ def story(reduction: Reduction) -> None:
 
 def budget(reduction: Reduction) -> None:
     """A bar per lag, zero and dead time: what became of it."""
-    st.markdown("**Where every time constant went**")
+    st.markdown("**Where each time constant goes**")
     show(budget_figure(reduction), "budget", "What became of every lag, zero and dead time")
 
 
@@ -78,15 +78,19 @@ def candidates(reduction: Reduction) -> None:
         [
             {
                 "θ": number(each.theta),
-                "Ms, tight loop round the plant": number(each.Ms) if math.isfinite(each.Ms) else "no stable loop",
-                "": "taken" if each.chosen else "",
+                "Ms, tight loop around the plant": number(each.Ms) if math.isfinite(each.Ms) else "no stable loop",
+                "load error at Ms = 1.6": number(each.load_error, 3) if math.isfinite(each.load_error) else "none",
+                "": "chosen" if each.chosen else "",
             }
             for each in reduction.candidates
         ],
         hide_index=True,
         width="content",
     )
-    st.caption("Taken: the smallest θ > 0 whose tight SIMC loop round the full plant has Ms ≤ 2.")
+    st.caption(
+        "Chosen: the θ > 0 whose SIMC loop around the full plant has the least load error $\\tau_I/K_c$ at Ms = 1.6; "
+        "where no loop has that Ms, the smallest θ with Ms ≤ 2 at τc = θ."
+    )
 
 
 def comparison(study: Study) -> None:
@@ -104,7 +108,7 @@ def comparison(study: Study) -> None:
             model_error_figure(compared.omega, compared.error, compared.bound, HEIGHT), "error", "Relative model error"
         )
         st.caption(
-            "The loop designed on the model $G_r$ is stable round $G$ where "
+            "The loop designed on the model $G_r$ is stable around $G$ where "
             "$|G - G_r|/|G_r| < 1/|T|$ at all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
         )
     numbers(compared)
@@ -129,6 +133,6 @@ def numbers(compared: ModelError) -> None:
     if compared.error[0] >= 1:
         words = (
             "**Made for fast control.** The model keeps the beginning of the response, not its steady state: the rules "
-            "for zeros hold at the frequencies of the tight loop. The tuning page judges the loop round the full plant"
+            "for zeros hold at the frequencies of the tight loop. The tuning page judges the loop around the full plant"
         )
     place(words + (share or ": the loop round the model itself is not stable."))

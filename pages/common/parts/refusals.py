@@ -7,7 +7,8 @@ import streamlit as st
 
 from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import sentence
-from simc_core.errors import NotReducible, ParseError, SimcError
+from pages.common.session import state
+from simc_core.errors import NotReducible, ParseError, RuleEnds, SimcError
 
 STYLE = """<style>
 .st-key-guards [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
@@ -26,3 +27,5 @@ def explain_refusal() -> Iterator[None]:
         st.error(f"**The half rule does not cover this plant.** {sentence(str(error))}")
     except SimcError as error:
         st.error(f"**This design is not possible.** {sentence(str(error))}")
+        if isinstance(error, RuleEnds) and error.change:
+            st.button("Do this", key="remedy_refusal", on_click=state.change, kwargs=error.change)

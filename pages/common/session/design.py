@@ -4,7 +4,6 @@ Pure Python, no streamlit. links.py writes a Design as an address, project.py as
 """
 
 import math
-import re
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -13,14 +12,13 @@ from simc_core import Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
+from simc_core.rules.speed import WORDS, is_speed, times_theta
 
 KINDS = ("PI", "PID")
 METHODS = ("simc", "synthesis")
 FILTERS = ("N", "zero")
 RULES = ("2003", "1998")
 SOURCES = ("simc", "own")
-TIMES_THETA = re.compile(r"(\d{1,4}(?:\.\d{1,6})?)theta")
-WORDS = ("aggressive", "moderate", "conservative")  # of Arbogast, Cooper and Rice, see tau_c_presets
 MOST_PINS = 4
 LOWEST_N, HIGHEST_N = 0.1, 1000.0
 
@@ -45,7 +43,7 @@ class Tuning:
 
     def __post_init__(self):
         put = object.__setattr__
-        if self.speed and self.speed not in WORDS and not _multiple(self.speed):
+        if not is_speed(self.speed):
             words = ", ".join(WORDS)
             raise InvalidParameter(f"speed must be one of {words} or like 1.5theta, got {str(self.speed)[:40]}")
         put(self, "order", checks.whole("order", self.order, 1, 2))
@@ -64,7 +62,7 @@ class Tuning:
     @property
     def times_theta(self) -> float | None:
         """The multiple of theta that tau_c is to be, None where the choice is another."""
-        return None if self.tau_c is not None else _multiple(self.speed)
+        return None if self.tau_c is not None else times_theta(self.speed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,12 +216,6 @@ def _in_time(record, time: Fraction):
     """The record with those of its fields that are times multiplied."""
     given = {name: getattr(record, name) for name in TIMES if getattr(record, name, None)}
     return replace(record, **{name: value * time.numerator / time.denominator for name, value in given.items()})
-
-
-def _multiple(speed: str) -> float | None:
-    found = TIMES_THETA.fullmatch(speed)
-    value = float(found[1]) if found else 0.0
-    return value if 0.01 <= value <= 1000 else None
 
 
 def one_of(name: str, value, choices: tuple[str, ...]) -> str:

@@ -1,7 +1,7 @@
 """From what the user has decided to everything the pages show of it. Pure: no streamlit."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
@@ -11,14 +11,12 @@ from simc_core.errors import NotStable
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.metrics.performance import Performance, StepMetrics, performance
-from simc_core.plants.models import Model, UnstableDelay
+from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
-from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Reduction
-from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import Margins, margins
 from simc_core.simulation import Scenario, TimeResponse, simulate
-from simc_core.studies.sweep import dressed
+from simc_core.studies.tuned import Tuned, tuned
 
 UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
 
@@ -27,21 +25,30 @@ UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
 class Study:
     """A controller, how it came about, and what the loop around the FULL plant does.
 
-    reduction, tau_c: None where the controller is not made by SIMC from a model.
+    tuned: how SIMC made it; None for settings that were typed.
     performance: None where the loop is not stable; all nan where it is too near its limit to come to rest.
     """
 
     tuning: Tuning
-    reduction: Reduction | None
-    tau_c: float | None
+    tuned: Tuned | None
     loop: Loop
     margins: Margins
     performance: Performance | None
 
     @property
+    def reduction(self) -> Reduction | None:
+        """How the model came about."""
+        return self.tuned and self.tuned.reduction
+
+    @property
+    def tau_c(self) -> float | None:
+        """The one in use."""
+        return self.tuned and self.tuned.tau_c
+
+    @property
     def model(self) -> Model | None:
         """The reduced model."""
-        return self.reduction and self.reduction.model
+        return self.tuned and self.tuned.model
 
     @property
     def controller(self) -> Controller:
@@ -56,11 +63,8 @@ class Study:
 
 def study(plant: Plant, tuning: Tuning) -> Study:
     """Reduce, tune, close the loop, judge it. Raises SimcError, in words, where one of these is impossible."""
-    reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules)
-    tau_c = tau_c_in_use(reduction.model, tuning)
-    loop = Loop(plant, dressed(simc(reduction.model, tau_c), tuning.b, tuning.filter))
-    judged = margins(loop)
-    return Study(tuning, reduction, tau_c, loop, judged, _measured(loop) if judged.stable else None)
+    found = tuned(plant, **asdict(tuning))
+    return Study(tuning, found, found.loop, found.margins, _measured(found.loop) if found.margins.stable else None)
 
 
 def present_study(design: Design) -> Study:
@@ -74,7 +78,7 @@ def study_of_settings(plant: Plant, controller: Controller) -> Study:
     """Settings that were typed, around this plant: no model and no rule stand behind them."""
     loop = Loop(plant, controller)
     judged = margins(loop)
-    return Study(Tuning(), None, None, loop, judged, _measured(loop) if judged.stable else None)
+    return Study(Tuning(), None, loop, judged, _measured(loop) if judged.stable else None)
 
 
 def _measured(loop: Loop) -> Performance:
@@ -82,22 +86,6 @@ def _measured(loop: Loop) -> Performance:
         return performance(loop)
     except NotStable:  # an integral exists, but not within reach
         return Performance(UNKNOWN, UNKNOWN)
-
-
-def tau_c_in_use(model: Model, tuning: Tuning) -> float:
-    """tau_c as decided, as a number or as a choice; else tight; without dead time, the first preset there is.
-
-    The rule of an unstable pole knows tight alone.
-    """
-    presets = tau_c_presets(model)
-    usual = next(iter(presets.values()), 1.0)
-    if isinstance(model, UnstableDelay):
-        return usual
-    if tuning.tau_c is not None:
-        return tuning.tau_c
-    if tuning.times_theta and model.theta:
-        return tuning.times_theta * model.theta
-    return presets.get(tuning.speed, usual)
 
 
 def time_responses(studies: list[Study]) -> list[TimeResponse]:

@@ -4,23 +4,36 @@ import streamlit as st
 
 from pages.common.parts.refusals import STYLE
 from pages.common.parts.symbols import symbols
+from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.notation import number
-from simc_core.studies.advice import advice
+from simc_core.studies.advice import Advice, advice, in_words
+
+PLACES = {"error": st.error, "warning": st.warning, "note": st.caption}
 
 
 def show(study: Study) -> None:
-    """Advice on the design: warnings open, notes folded below them."""
-    judged = study.margins
-    found = advice(study.model, study.controller, judged.Ms, judged.PM_deg, study.tau_c, study.reduction)
+    """Advice on the design, the gravest first; what it proposes is a button."""
     st.html(STYLE)
     with st.container(key="guards", gap="xsmall"):
-        if not study.stable:
-            st.error("**The loop is not stable**, so it has neither margins nor metrics. *Increase $\\tau_c$.*")
-        for item in found:
-            text = symbols(f"**{item.quantity}**, limit {item.limit}. {item.text} *{item.remedy}*")
-            (st.warning if item.level == "warning" else st.caption)(text)
+        for item in advice(study.tuned):
+            PLACES[item.level](words(item))
+            if item.change:
+                st.button(
+                    symbols(in_words(item.change)),
+                    key=f"remedy_{item.quantity}",
+                    type="tertiary",
+                    icon=":material/arrow_forward:",
+                    on_click=state.change,
+                    kwargs=item.change,
+                )
+
+
+def words(item: Advice) -> str:
+    """What is wrong, and what to do, for st.markdown."""
+    remedy = f" *{item.remedy}*" if item.remedy else ""
+    return symbols(f"**{item.headline}.** {item.text}{remedy}")
 
 
 def poles(study: Study) -> None:

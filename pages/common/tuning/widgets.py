@@ -15,28 +15,33 @@ from simc_core.controllers.forms import FORMS, IController
 from simc_core.errors import FormError
 from simc_core.notation import latex, number
 from simc_core.plants.models import Model, UnstableDelay
-from simc_core.rules.simc import tau_c_presets
+from simc_core.rules.simc import default_tau_c, tau_c_multiples, tau_c_presets
+from simc_core.studies.advice import slowest_useful
 
 STEPS_PER_DECADE = 20
+SAME = 1e-9  # relative; one tau_c typed and chosen
+SLOW = ": slower than the plant alone, or than 8 θ for an integrating one"
 SHORTEST, LONGEST = -1, 2  # decades of tau_c/theta on the slider
 STYLE = """<style>
-.st-key-presets {display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem}
-.st-key-presets button {min-height: 2rem; padding: 0 0.5rem}
+.st-key-presets, .st-key-multiples {display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem}
+.st-key-presets button, .st-key-multiples button {min-height: 2rem; padding: 0 0.5rem}
 @media (max-width: 640px) { /* what moves comes first, what is set once below it */
   .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
 }
 </style>"""
 
 
-def tau_c_control(model: Model, tau_c: float, slider: bool = True) -> None:
+def tau_c_control(study: Study, slider: bool = True) -> None:
     """tau_c: slider, logarithmic and relative to theta, exact number beside it, presets below.
 
     slider=False: without it, where the live instrument has one.
     """
     st.html(STYLE)
+    model, tau_c = study.model, study.tau_c
     if isinstance(model, UnstableDelay):
         st.markdown(f"$\\tau_c = \\theta$ = **{number(tau_c)}**")
         st.caption("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24].")
+        st.caption(model_in_use(model))
         return
     place = st.container()
     if slider:
@@ -51,11 +56,11 @@ def tau_c_control(model: Model, tau_c: float, slider: bool = True) -> None:
         format="%.6g",
         **state.bound("tau_c", show=lambda value: float(value or tau_c), key="tau_c_exact"),
     )
-    _presets(model, tau_c)
+    _presets(study)
 
 
 def _slider(model: Model, tau_c: float) -> None:
-    scale, unit = (model.theta, "θ") if model.theta else (tau_c_presets_or_one(model), "")
+    scale, unit = (model.theta, "θ") if model.theta else (default_tau_c(model), "")
     ratios = [10 ** (i / STEPS_PER_DECADE) for i in range(SHORTEST * STEPS_PER_DECADE, LONGEST * STEPS_PER_DECADE + 1)]
     st.select_slider(
         r"Speed: $\tau_c$",
@@ -70,11 +75,6 @@ def _slider(model: Model, tau_c: float) -> None:
             key="tau_c_slider",
         ),
     )
-
-
-def tau_c_presets_or_one(model: Model) -> float:
-    """A time to measure tau_c by where the model has no dead time."""
-    return next(iter(tau_c_presets(model).values()), 1.0)
 
 
 def structure() -> None:
@@ -124,17 +124,32 @@ def settings(study: Study) -> None:
     copyable(as_text(study.controller, form), "settings_text")
 
 
-def _presets(model: Model, tau_c: float) -> None:
-    presets = tau_c_presets(model)
-    with st.container(key="presets"):
-        for name, value in presets.items():
-            chosen = math.isclose(value, tau_c, rel_tol=1e-9)
-            st.button(
-                name,
-                key=f"preset_{name}",
-                width="stretch",
-                help=f"tau_c = {number(value)}",
-                type="primary" if chosen else "secondary",
-                on_click=state.change,
-                kwargs={"tau_c": None if name == "tight" else value},
-            )
+def _presets(study: Study) -> None:
+    """Multiples of theta, and the named choices of the literature; each says its tau_c."""
+    with st.container(key="multiples"):
+        for factor, value in tau_c_multiples(study.model).items():
+            name = "θ" if factor == 1 else f"{number(factor)} θ"
+            _choice(f"multiple_{number(factor)}", name, value, study, "" if factor == 1 else f"{factor:g}theta")
+    with st.expander("Choices of the literature"), st.container(key="presets"):
+        for name, value in tau_c_presets(study.model).items():
+            _choice(f"preset_{name}", name, value, study, "" if name == "tight" else name)
+    st.caption(model_in_use(study.model))
+
+
+def _choice(key: str, name: str, value: float, study: Study, speed: str) -> None:
+    """A button for one choice of tau_c, which stays when the plant changes; one slower than the plant says so."""
+    slow = value > slowest_useful(study.loop.plant, study.model) * (1 + SAME)
+    st.button(
+        f"{name}: {number(value, 3)}" + (" (slow)" if slow else ""),
+        key=key,
+        width="stretch",
+        help=f"τc = {number(value)}" + (SLOW if slow else ""),
+        type="primary" if math.isclose(value, study.tau_c, rel_tol=SAME) else "secondary",
+        on_click=state.change,
+        kwargs={"tau_c": None, "speed": speed},
+    )
+
+
+def model_in_use(model: Model) -> str:
+    """Which theta is meant: that of the model, not the plant's dead time."""
+    return f"Model in use: ${latex(model)}$. θ = {number(model.theta)} is its effective dead time."

@@ -16,7 +16,7 @@ from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import Loop
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
-from simc_core.rules.simc import simc, tau_c_presets
+from simc_core.rules.simc import default_tau_c, simc, tau_c_presets
 from simc_core.simulation import Scenario, simulate
 from simc_core.simulation.horizon import settling_horizon
 from simc_core.studies.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
@@ -103,7 +103,7 @@ def bench(of: Subject, present: Study, shown: float | None = None) -> Bench:
 def bounds(model: Model) -> tuple[float, float, float, str]:
     """low, high of tau_c on the slider, the length of 1 on its scale, and what that is called."""
     presets = tau_c_presets(model)
-    unit = model.theta or next(iter(presets.values()), 1.0)
+    unit = default_tau_c(model)
     high = max(LONGEST * unit, *presets.values(), 0.0)
     return SHORTEST * unit, high, unit, "θ" if model.theta else ""
 

@@ -1,0 +1,136 @@
+"""From a plant and what was chosen to the SIMC loop round the full plant; where the rule ends, what to do instead."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from simc_core.controllers.forms import Controller
+from simc_core.errors import InvalidParameter, RuleEnds, SimcError
+from simc_core.loops.loop import Loop
+from simc_core.notation import number
+from simc_core.plants.models import Model, UnstableDelay
+from simc_core.plants.plant import Plant
+from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.records import Reduction
+from simc_core.rules.simc import A_THETA_LIMIT, simc
+from simc_core.rules.speed import tau_c_in_use
+from simc_core.sensitivity.margins import Margins, margins
+from simc_core.studies.sweep import dressed
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Tuned:
+    """A SIMC design.
+
+    choices: what was chosen, by the names of `tuned`.   tau_c: in use.   margins: of the loop round the full plant.
+    """
+
+    plant: Plant
+    choices: dict[str, Any]
+    reduction: Reduction
+    tau_c: float
+    loop: Loop
+    margins: Margins
+
+    @property
+    def order(self) -> int:
+        """Order asked of the model."""
+        return self.choices["order"]
+
+    @property
+    def model(self) -> Model:
+        """The reduced model."""
+        return self.reduction.model
+
+    @property
+    def controller(self) -> Controller:
+        """The controller, with set-point weight and derivative filter."""
+        return self.loop.controller
+
+    def at(self, tau_c: float) -> "Tuned":
+        """The same model tuned at another tau_c."""
+        return _closed(self.plant, {**self.choices, "tau_c": tau_c}, self.reduction)
+
+    def changed(self, **change) -> "Tuned":
+        """The design with other choices. Raises SimcError."""
+        return tuned(self.plant, **{**self.choices, **change})
+
+
+def tuned(
+    plant: Plant,
+    order: int = 1,
+    h: float = 0.0,
+    tau_c: float | None = None,
+    b: float = 1.0,
+    filter: float = 0.0,
+    rules: str = "2003",
+    speed: str = "",
+) -> Tuned:
+    """Reduce, tune, close the loop, judge it.
+
+    Parameters
+    ----------
+    plant : Plant
+        The full plant.
+    order, h, rules
+        Of the reduction, as in `half_rule`.
+    tau_c : float, optional
+        Closed-loop time constant; None for `speed`. The rule of an unstable pole knows theta alone.
+    b : float
+        Set-point weight.
+    filter : float
+        tau_F/tau_D, 0 for no filter.
+    speed : str
+        tau_c as a choice that follows the model, "1.5theta" or "moderate"; "" for theta.
+
+    Raises
+    ------
+    RuleEnds
+        Where SIMC has no setting for the model; says why, and holds the changes that do work.
+    SimcError
+        Where there is no model, or a number is out of bounds.
+    """
+    choices = {"order": order, "h": h, "tau_c": tau_c, "b": b, "filter": filter, "rules": rules, "speed": speed}
+    reduction = half_rule(plant, order, h, rules)
+    try:
+        return _closed(plant, choices, reduction)
+    except InvalidParameter as error:
+        if isinstance(reduction.model, UnstableDelay):
+            raise _no_setting(plant, choices, reduction.model, str(error)) from error
+        raise
+
+
+def _closed(plant: Plant, choices: dict[str, Any], reduction: Reduction) -> Tuned:
+    model = reduction.model
+    tau_c = tau_c_in_use(model, choices["tau_c"], choices["speed"])
+    loop = Loop(plant, dressed(simc(model, tau_c), choices["b"], choices["filter"]))
+    return Tuned(plant, choices, reduction, tau_c, loop, margins(loop))
+
+
+def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, error: str) -> RuleEnds:
+    """Why the rule of an unstable pole ends here, and the order that has a setting, if the other one has."""
+    if model.theta == 0:
+        return RuleEnds(
+            "theta must be > 0 for the SIMC rule of an unstable pole, got 0: the gain would be without limit; "
+            "enter the dead time or the lag of the actuator as part of the plant"
+        )
+    product = model.a * model.theta
+    if product < A_THETA_LIMIT:
+        return RuleEnds(error)
+    why = f"a theta must be < {A_THETA_LIMIT:g} for the SIMC rule of an unstable pole, got {number(product, 4)}: "
+    added = model.theta - plant.theta
+    if choices["order"] == 2 or not added > 0:
+        return RuleEnds(why + f"theta = {number(model.theta, 4)} is too long for a = {number(model.a, 4)}, shorten it")
+    why += (
+        f"order 1 adds {number(added, 4)} to the dead time {number(plant.theta, 4)} of the plant, "
+        "for its lags and zeros; "
+    )
+    try:
+        other = tuned(plant, **{**choices, "order": 2})
+    except RuleEnds as refusal:
+        return RuleEnds(f"{why}for order 2: {refusal}")
+    except SimcError:
+        return RuleEnds(why + "shorten the dead time")
+    if not other.margins.stable:
+        return RuleEnds(why + "order 2 gives no stable loop either, shorten the dead time")
+    values = ", ".join(f"{name} = {number(value, 5)}" for name, value in other.controller.settings.items())
+    return RuleEnds(f"{why}take PID (order 2): {values}, Ms = {number(other.margins.Ms, 4)}", {"order": 2})
