@@ -15,14 +15,15 @@ run: $(VENV)/run.stamp
 	$(BIN)/streamlit run app.py --server.address $(HOST) --server.port $(PORT)
 
 # Browser tests last: they are the slowest, and the others say more exactly what broke.
-test: $(VENV)/dev.stamp lint chromium nginx systemd-analyze
+test: $(VENV)/dev.stamp lint chromium nginx systemd-analyze node
 	$(BIN)/python -m pytest tests --ignore=tests/browser -n auto
 	$(BIN)/python -m pytest tests/browser
 
-lint: $(VENV)/dev.stamp
+lint: $(VENV)/dev.stamp node_modules/.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports --no-cache
+	node_modules/.bin/biome check
 
 bench: $(VENV)/dev.stamp
 	$(BIN)/python -m benchmarks
@@ -48,7 +49,7 @@ licences: $(VENV)/run.stamp
 	$(BIN)/python -m deploy.licences
 
 clean:
-	rm -rf $(VENV) .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) node_modules .pytest_cache .ruff_cache .hypothesis
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV) || { echo "No venv here: apt-get install python3-venv"; exit 1; }
@@ -61,12 +62,18 @@ $(VENV)/dev.stamp: requirements-dev.lock $(VENV)/run.stamp
 	$(BIN)/python -m pip install --quiet --require-hashes -r requirements-dev.lock
 	touch $@
 
+node_modules/.stamp: package-lock.json | npm
+	npm ci --silent --no-audit --no-fund
+	touch $@
+
 # Programs of Debian that tests need, installed where that is allowed: as root, or by sudo that asks nothing.
 DEBIAN_chromium := chromium
 DEBIAN_nginx := nginx
 DEBIAN_systemd-analyze := systemd
-.PHONY: chromium nginx systemd-analyze
-chromium nginx systemd-analyze:
+DEBIAN_node := nodejs
+DEBIAN_npm := npm
+.PHONY: chromium nginx systemd-analyze node npm
+chromium nginx systemd-analyze node npm:
 	@PATH="$$PATH:/usr/sbin"; command -v $@ >/dev/null && exit 0; \
 	if [ "$$(id -u)" = 0 ]; then AS=; elif sudo -n true 2>/dev/null; then AS="sudo -n"; else AS=none; fi; \
 	if [ "$$AS" != none ] && command -v apt-get >/dev/null; then \

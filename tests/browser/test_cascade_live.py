@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from simc_core import Loop, Plant, margins
+from simc_core import Plant, margins
 from simc_core.cascade.design import simc_cascade
-from simc_core.loops.frequency_grid import omega_grid
 from tests.browser.test_live import at_rest, live
-from tests.browser.tools import ROOT, idle, picture
+from tests.browser.tools import idle, picture
 
 PAIR_1 = "Ga=2exp(-2s)/(5s%2B1)&Gb=exp(-s)/((2s%2B1)(3s%2B1))"  # [PSB] pair 1
 PAIR_6 = "Ga=2exp(-2s)/(20s%2B1)&Gb=exp(-s)/(20s-1)&method=synthesis"  # an unstable inner block
@@ -151,21 +150,3 @@ def test_touch_moves_a_slider(server, open_page):
     page.touchscreen.tap(box["x"] + box["width"] * 0.85, box["y"] + 13)
     assert value(page, "outer") > 1.5 * before
     at_rest(page)
-
-
-def test_margins_read_from_a_curve_are_those_of_the_core(server, open_page):
-    """marginsOf of loops.js against simc_core.margins, on a first-order and an integrating loop."""
-    page = opened(open_page, server)
-    script = "\n".join(
-        (ROOT / "pages" / "common" / "live" / name).read_text() for name in ("kit/table.js", "cascade/loops.js")
-    )
-    for plant, Ki in ((Plant(2, 1, (8,)), 4.0), (Plant(1, 0.3, (1,), integrators=1), 0.4)):
-        loop = Loop(plant, simc_cascade(plant, Plant(1, Ki / 20, (Ki / 10,))).outer)
-        omega = omega_grid([loop.L])
-        L = loop.L(1j * omega)
-        got = page.evaluate(
-            f"([w, x, y]) => {{ {script}; return marginsOf(w, {{ x, y }}); }}",
-            [omega.tolist(), L.real.tolist(), L.imag.tolist()],
-        )
-        true = margins(loop)
-        assert got == pytest.approx({name: getattr(true, name) for name in got}, rel=2e-3)

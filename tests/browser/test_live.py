@@ -3,12 +3,10 @@
 import re
 from xml.etree import ElementTree
 
-import numpy as np
 import pytest
 from playwright.sync_api import Page, expect
 
-from simc_core.studies.tau_table import first_rows, stencil
-from tests.browser.tools import PATIENCE, ROOT, Server, idle, picture
+from tests.browser.tools import PATIENCE, Server, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"  # [V06] example 1
 UNSTABLE = "exp(-0.2s)/((5s%2B1)(4s%2B1))&order=2&filter=3"  # a slow filter: unstable for small tau_c
@@ -238,24 +236,3 @@ def test_panels_as_svg_hold_every_curve_and_the_words_on_the_axes(server, open_p
     assert all(path.get("d").startswith("M") for path in curves)
     words = [group.get("aria-label") for group in tree.iter(f"{SVG}g") if group.get("role") == "img"]
     assert words[0].startswith("Output y. tau_c 7: Ms 1.62")
-
-
-def test_every_logarithmic_axis_of_the_trade_offs_has_numbers(server, open_page):
-    page = opened(open_page, server, plant="2 exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))")  # IAE 12.6 to 1500: no round limit
-    script = (ROOT / "pages" / "common" / "live" / "kit" / "panel.js").read_text(encoding="utf-8")
-    got = page.evaluate(f"([low, high]) => {{ {script}; return logTicks(low, high); }}", [12.6, 1500])
-    assert got == [*range(20, 100, 10), *range(100, 1000, 100), 1000]
-    expect(page.locator(".settings sub")).to_have_text(["c", "I", "D"])
-
-
-def test_the_browser_reads_the_table_as_python_does(server, open_page):
-    """stencil() of table.js against simc_core.tau_table.stencil, kinks included."""
-    page = opened(open_page, server)
-    script = (ROOT / "pages" / "common" / "live" / "kit" / "table.js").read_text(encoding="utf-8")
-    rows = first_rows(0.1, 100.0, [1.7, 30.0])
-    for x in np.linspace(rows.x[0], rows.x[-1], 301):
-        first, weights = stencil(rows, x)
-        asked = [rows.x.tolist(), list(rows.breaks), x]
-        got = page.evaluate(f"([n, b, x]) => {{ {script}; return stencil(x, n, b); }}", asked)
-        assert got["first"] == first
-        assert got["weights"] == pytest.approx(weights, abs=1e-12)

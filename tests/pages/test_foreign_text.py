@@ -13,7 +13,7 @@ from markdown_it import MarkdownIt
 
 from pages.common.parts.foreign_text import block, exact, printable, told
 from pages.common.session import links, project
-from pages.common.session.design import Design
+from pages.common.session.design import PLACES, Design
 from pages.common.session.loops import Loops
 from tests.pages.tools import run_page
 
@@ -75,7 +75,7 @@ def test_nothing_closes_a_block(text):
     assert (fence.type, fence.content) == ("fence", f"{printable(text)}\n^\n")
 
 
-NAMES = st.one_of(st.sampled_from([*links.encode(Design()), *links.CASCADE_FIELDS, *links.ACTUATOR_FIELDS]), FOREIGN)
+NAMES = st.one_of(st.sampled_from([*PLACES]), FOREIGN)
 VALUES = st.one_of(FOREIGN, st.floats().map(str), st.sampled_from(["1e400", "-0", "٣", "1_000", "0x10", "1~0~~1~0~x"]))
 
 

@@ -5,26 +5,25 @@ from pathlib import Path
 
 import streamlit as st
 
+from pages.common.live.modules import bundled
+
 HERE = Path(__file__).parent
-KIT = ("format", "table", "panel", "curves", "slider", "strip", "svg", "picture", "instrument", "letters", "mount")
-SHARED = ("vendor/uplot.min.js", *(f"kit/{name}.js" for name in KIT))
+UPLOT = HERE / "vendor" / "uplot.min.js"
 
 
-def _text(*names: str) -> str:
-    return "\n".join((HERE / name).read_text(encoding="utf-8") for name in names)
-
-
-def _instrument(name: str, *own: str):
-    html, css = _text("kit/live.html"), _text("vendor/uplot.min.css", "kit/live.css")
-    js = _text(*SHARED, *(f"{name}/{part}.js" for part in own))
+def _instrument(name: str):
+    html, css = _text(HERE / "kit" / "live.html"), _text(UPLOT.with_suffix(".css"), HERE / "kit" / "live.css")
+    js = _text(UPLOT) + bundled(HERE / name / "main.js")
     return st.components.v2.component(f"simc_live_{name}", html=html, css=css, js=js)
 
 
-tuning = _instrument("tuning", "panels", "tradeoff", "tuning", "main")
-cascade = _instrument("cascade", "loops", "panels", "cascade", "main")
-message = st.components.v2.component(
-    "simc_live_message", html="<span></span>", js=_text("kit/table.js", "kit/letters.js", "kit/message.js")
-)
+def _text(*files: Path) -> str:
+    return "\n".join(file.read_text(encoding="utf-8") for file in files)
+
+
+tuning = _instrument("tuning")
+cascade = _instrument("cascade")
+message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
 
 
 def answer_if_unheard(asked, answers: int, take: Callable[[Mapping], None]) -> None:

@@ -184,6 +184,46 @@ class Design:
         object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
 
 
+# Where the field of each name lies, "" for the design itself. Links and widgets know fields by these names.
+PLACES: dict[str, tuple[str, str]] = {
+    **{name: ("", name) for name in ("plant", "form", "own", "now", "pins")},
+    "controller": ("", "source"),
+    **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed")},
+    **{name: ("sheet", name) for name in ("tag", "note")},
+    "unit": ("sheet", "time_unit"),
+    **{
+        f"{signal}{end}": ("sheet", f"{signal}{end}")
+        for signal in ("PV", "OP")
+        for end in ("", "_unit", "_low", "_high", "_now")
+    },
+    "Ga": ("cascade", "primary"),
+    "Gb": ("cascade", "secondary"),
+    **{name: ("cascade", name) for name in ("method", "inner", "outer")},
+    **{f"{name}_{loop}": ("cascade", f"{name}_{loop}") for name in ("tau_c", "Ms", "N") for loop in ("inner", "outer")},
+    "b_outer": ("cascade", "b"),
+    "filter_outer": ("cascade", "filter_outer"),
+    **{name: ("actuator", name) for name in ("u_min", "u_max", "noise", "seed")},
+    "T_t": ("actuator", "tracking_time"),
+    "sampling": ("actuator", "h"),
+    "r": ("actuator", "setpoint"),
+    "d": ("actuator", "disturbance"),
+}
+
+
+def get(design: Design, name: str):
+    """The field of this name in PLACES."""
+    record, field_name = PLACES[name]
+    return getattr(getattr(design, record) if record else design, field_name)
+
+
+def put(design: Design, name: str, value) -> Design:
+    """The design with another value of this field. Raises InvalidParameter."""
+    record, field_name = PLACES[name]
+    if not record:
+        return replace(design, **{field_name: value})
+    return replace(design, **{record: replace(getattr(design, record), **{field_name: value})})
+
+
 def in_time_unit(design: Design, unit: str) -> Design:
     """The same design with its times in another unit: plant, controllers, cascade, sampling, everything.
 

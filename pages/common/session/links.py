@@ -11,50 +11,18 @@ Numbers are written with all their digits, so that a link opens the very same de
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from urllib.parse import quote, urlencode
 
-from pages.common.session.design import Design, Tuning
+from pages.common.session.design import PLACES, Design, Tuning, get, put
 from simc_core import parse_plant
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
 from simc_core.notation import plain
 
 LONGEST_VALUE = 2000  # characters of one parameter; a plant of 40 poles needs fewer
-TUNING_FIELDS = ("order", "h", "tau_c", "b", "filter", "rules", "speed")
-CASCADE_FIELDS = {
-    "Ga": "primary",
-    "Gb": "secondary",
-    "method": "method",
-    "inner": "inner",
-    "outer": "outer",
-    "tau_c_inner": "tau_c_inner",
-    "tau_c_outer": "tau_c_outer",
-    "Ms_inner": "Ms_inner",
-    "Ms_outer": "Ms_outer",
-    "b_outer": "b",
-    "N_inner": "N_inner",
-    "N_outer": "N_outer",
-    "filter_outer": "filter_outer",
-}
-ACTUATOR_FIELDS = {
-    "u_min": "u_min",
-    "u_max": "u_max",
-    "T_t": "tracking_time",
-    "noise": "noise",
-    "seed": "seed",
-    "sampling": "h",
-    "r": "setpoint",
-    "d": "disturbance",
-}
-SHEET_FIELDS = {
-    "tag": "tag",
-    "note": "note",
-    "unit": "time_unit",
-    **{f"{signal}{end}": f"{signal}{end}" for signal in ("PV", "OP") for end in ("", "_unit", "_low", "_high", "_now")},
-}
-DESIGN_FIELDS = {"plant": "plant", "form": "form", "controller": "source", "own": "own", "now": "now", "pins": "pins"}
+TUNING_FIELDS = tuple(name for name, (record, _) in PLACES.items() if record == "tuning")
 SETTINGS = ("own", "now")
 FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "I": IController}
 TEXTS = (
@@ -64,6 +32,8 @@ TEXTS = (
 )
 PLANTS = ("plant", "Ga", "Gb")
 ALWAYS = ("plant", "order")
+FIRST = ("plant", *TUNING_FIELDS, "form", "pins")  # in an address; the others in the order of PLACES
+ORDER = (*FIRST, *(name for name in PLACES if name not in FIRST))
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,40 +97,24 @@ def _usual() -> dict[str, str]:
 
 
 def _flat(design: Design) -> dict[str, str]:
-    flat = {"plant": plain(design.plant)}
-    flat |= {name: _text(name, getattr(design.tuning, name)) for name in TUNING_FIELDS}
-    flat |= {"form": design.form, "pins": "!".join(map(_pin_text, design.pins))}
-    flat |= {name: settings_text(getattr(design, name)) for name in SETTINGS} | {"controller": design.source}
-    for name, field in SHEET_FIELDS.items():
-        flat[name] = _text(name, getattr(design.sheet, field))
-    for name, field in CASCADE_FIELDS.items():
-        flat[name] = _text(name, getattr(design.cascade, field))
-    for name, field in ACTUATOR_FIELDS.items():
-        flat[name] = _text(name, getattr(design.actuator, field))
-    return flat
+    return {name: _text(name, get(design, name)) for name in ORDER}
 
 
 def _changed(design: Design, name: str, text: str) -> Design:
     if len(text) > LONGEST_VALUE:
         raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
-    if name == "pins":
-        return replace(design, pins=tuple(_pin(pin) for pin in text.split("!")))
-    if name in DESIGN_FIELDS:
-        return replace(design, **{DESIGN_FIELDS[name]: _read(name, text)})
-    if name in SHEET_FIELDS:
-        return replace(design, sheet=replace(design.sheet, **{SHEET_FIELDS[name]: _read(name, text)}))
-    if name in TUNING_FIELDS:
-        return replace(design, tuning=replace(design.tuning, **{name: _read(name, text)}))
-    if name in CASCADE_FIELDS:
-        return replace(design, cascade=replace(design.cascade, **{CASCADE_FIELDS[name]: _read(name, text)}))
-    if name in ACTUATOR_FIELDS:
-        return replace(design, actuator=replace(design.actuator, **{ACTUATOR_FIELDS[name]: _read(name, text)}))
-    raise SimcError("there is no parameter of this name")
+    if name not in PLACES:
+        raise SimcError("there is no parameter of this name")
+    return put(design, name, _read(name, text))
 
 
 def _text(name: str, value) -> str:
     if name in TEXTS:
         return value
+    if name == "pins":
+        return "!".join(map(_pin_text, value))
+    if name in SETTINGS:
+        return settings_text(value)
     return plain(value) if name in PLANTS else number_text(value)
 
 
@@ -169,6 +123,8 @@ def _read(name: str, text: str):
         return text
     if name in PLANTS:
         return parse_plant(text)
+    if name == "pins":
+        return tuple(map(_pin, text.split("!")))
     if name in SETTINGS:
         return settings_of(text)
     try:

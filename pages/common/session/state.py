@@ -18,15 +18,8 @@ from typing import Any
 import streamlit as st
 
 from pages.common.session import links, project
-from pages.common.session.design import Cascade, Design, Tuning
-from pages.common.session.links import (
-    ACTUATOR_FIELDS,
-    CASCADE_FIELDS,
-    DESIGN_FIELDS,
-    SHEET_FIELDS,
-    TUNING_FIELDS,
-    Ignored,
-)
+from pages.common.session.design import Cascade, Design, Tuning, get, put
+from pages.common.session.links import Ignored
 from pages.common.session.loops import Loops
 from simc_core import Plant
 
@@ -139,22 +132,13 @@ def cascade() -> Cascade:
 
 
 def change(**values) -> None:
-    """Change fields by their names in links.py: plant, order, tau_c, b, form, pins, Ga, Gb, method, and the others.
+    """Change fields by their names in design.py: plant, order, tau_c, b, form, pins, Ga, Gb, method, and the others.
 
     Raises InvalidParameter and then changes nothing.
     """
     design = design_now()
     for name, value in values.items():
-        if name in DESIGN_FIELDS:
-            design = replace(design, **{DESIGN_FIELDS[name]: value})
-        elif name in SHEET_FIELDS:
-            design = replace(design, sheet=replace(design.sheet, **{SHEET_FIELDS[name]: value}))
-        elif name in TUNING_FIELDS:
-            design = replace(design, tuning=replace(design.tuning, **{name: value}))
-        elif name in ACTUATOR_FIELDS:
-            design = replace(design, actuator=replace(design.actuator, **{ACTUATOR_FIELDS[name]: value}))
-        else:
-            design = replace(design, cascade=replace(design.cascade, **{CASCADE_FIELDS[name]: value}))
+        design = put(design, name, value)
     replace_design(design)
 
 
@@ -165,17 +149,8 @@ def replace_design(design: Design) -> None:
 
 
 def value(name: str) -> Any:
-    """A field by its name in links.py."""
-    design = design_now()
-    if name in DESIGN_FIELDS:
-        return getattr(design, DESIGN_FIELDS[name])
-    if name in SHEET_FIELDS:
-        return getattr(design.sheet, SHEET_FIELDS[name])
-    if name in TUNING_FIELDS:
-        return getattr(design.tuning, name)
-    if name in ACTUATOR_FIELDS:
-        return getattr(design.actuator, ACTUATOR_FIELDS[name])
-    return getattr(design.cascade, CASCADE_FIELDS[name])
+    """A field by its name in design.py."""
+    return get(design_now(), name)
 
 
 def bound(

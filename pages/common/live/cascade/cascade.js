@@ -1,14 +1,26 @@
 // The instrument of the cascade page: two sliders, one for each loop; each has a table in which the other loop is held.
 
+import { numbers, text } from "../kit/format.js";
+import { Instrument } from "../kit/instrument.js";
+import { strip } from "../kit/strip.js";
+import { between, mix, stencil } from "../kit/table.js";
+import { loopsOf, marginsOf } from "./loops.js";
+import { cascadePanels } from "./panels.js";
+
 const FIGURES = [
-  ["Ms_outer", "Ms of the outer loop", true], ["Ms_inner", "Ms of the inner loop", true],
-  ["GM", "GM, outer"], ["PM_deg", "PM, outer °"], ["delay_margin", "Delay m., outer"],
-  ["IAE_setpoint", "IAE r"], ["IAE_d1", "IAE d1"], ["IAE_d2", "IAE d2"],
+  ["Ms_outer", "Ms of the outer loop", true],
+  ["Ms_inner", "Ms of the inner loop", true],
+  ["GM", "GM, outer"],
+  ["PM_deg", "PM, outer °"],
+  ["delay_margin", "Delay m., outer"],
+  ["IAE_setpoint", "IAE r"],
+  ["IAE_d1", "IAE d1"],
+  ["IAE_d2", "IAE d2"],
 ];
 const NOTHING = Object.fromEntries(FIGURES.map(([name]) => [name, NaN]));
 const alike = (a, b) => (a === null || b === null ? a === b : Math.abs(a / b - 1) < 1e-9);
 
-class Cascade extends Instrument {
+export class Cascade extends Instrument {
   constructor(root) {
     super(root, {
       sliders: ["inner", "outer"].map((name) => ({ name, symbol: name, label: name })),
@@ -60,7 +72,8 @@ class Cascade extends Instrument {
 
   /** The table for a slider, if it belongs to what is decided for the other loop. */
   tableOf({ name }) {
-    const table = this.tables[name], other = name === "inner" ? "outer" : "inner";
+    const table = this.tables[name],
+      other = name === "inner" ? "outer" : "inner";
     return table && table.setup === this.setup?.id && alike(table.held, this.decided[other]) ? table : undefined;
   }
 
@@ -88,28 +101,56 @@ class Cascade extends Instrument {
 
   reading() {
     const { exact, setup } = this;
-    if (exact?.setup === setup.id && this.sliders.every((slider) => alike(slider.tau_c, exact[slider.name]))) return this.readExact(exact);
+    if (exact?.setup === setup.id && this.sliders.every((slider) => alike(slider.tau_c, exact[slider.name])))
+      return this.readExact(exact);
     const table = this.tableOf(this.slider);
     if (!table) return { exact: false, curves: false, settings: {}, metrics: NOTHING, why: "" };
     const tau_c = this.slider.tau_c;
     if (table.unstable.some(([from, to]) => tau_c >= from && tau_c <= to))
-      return { exact: false, settings: {}, metrics: NOTHING, why: table.inner_stable ? "Cascade not stable" : "Not stable: one of the loops" };
-    const x = Math.log(tau_c), at = stencil(x, table.log_tau_c, table.breaks);
+      return {
+        exact: false,
+        settings: {},
+        metrics: NOTHING,
+        why: table.inner_stable ? "Cascade not stable" : "Not stable: one of the loops",
+      };
+    const x = Math.log(tau_c),
+      at = stencil(x, table.log_tau_c, table.breaks);
     const read = (name) => mix(table.blocks[name], at);
-    const metrics = Object.fromEntries(table.metrics.map((name) => [name, between(table.columns[name], x, table.log_tau_c)]));
-    const named = (loop) => { const values = read(`settings_${loop}`); return Object.fromEntries(table.settings[loop].map((name, i) => [name, values[i]])); };
+    const metrics = Object.fromEntries(
+      table.metrics.map((name) => [name, between(table.columns[name], x, table.log_tau_c)]),
+    );
+    const named = (loop) => {
+      const values = read(`settings_${loop}`);
+      return Object.fromEntries(table.settings[loop].map((name, i) => [name, values[i]]));
+    };
     if (table.held === null) this.sliders[1].place(read("outer_speed")[0]);
     const loops = loopsOf(setup, read("parameters"));
     const { Ms: Ms_outer, ...margins } = marginsOf(setup.omega, loops.outer);
-    return { exact: false, y1: read("y1"), y2: read("y2"), u: read("u"), loops, why: "",
-      settings: { inner: named("inner"), outer: named("outer") }, metrics: { ...margins, Ms_outer, Ms_inner: marginsOf(setup.omega, loops.inner).Ms, ...metrics } };
+    return {
+      exact: false,
+      y1: read("y1"),
+      y2: read("y2"),
+      u: read("u"),
+      loops,
+      why: "",
+      settings: { inner: named("inner"), outer: named("outer") },
+      metrics: { ...margins, Ms_outer, Ms_inner: marginsOf(setup.omega, loops.inner).Ms, ...metrics },
+    };
   }
 
   readExact(exact) {
     const row = (name) => exact.blocks[name] && mix(exact.blocks[name], { first: 0, weights: [1] });
     const why = exact.sound ? "" : exact.inner_stable ? "Cascade not stable" : "Inner loop not stable on its own";
-    return { exact: true, y1: row("y1"), y2: row("y2"), u: row("u"), loops: loopsOf(this.setup, row("parameters")), why,
-      settings: exact.settings, metrics: numbers(exact.metrics) };
+    return {
+      exact: true,
+      y1: row("y1"),
+      y2: row("y2"),
+      u: row("u"),
+      loops: loopsOf(this.setup, row("parameters")),
+      why,
+      settings: exact.settings,
+      metrics: numbers(exact.metrics),
+    };
   }
 
   figures({ exact, settings, metrics, why, curves }) {
@@ -125,7 +166,9 @@ class Cascade extends Instrument {
   words({ why, metrics: m }) {
     const speeds = this.title();
     if (why) return `${speeds}: ${why}`;
-    return `${speeds}: Ms of the outer loop ${text(m.Ms_outer)}, of the inner one ${text(m.Ms_inner)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
-      `IAE set point ${text(m.IAE_setpoint)}, d1 ${text(m.IAE_d1)}, d2 ${text(m.IAE_d2)}`;
+    return (
+      `${speeds}: Ms of the outer loop ${text(m.Ms_outer)}, of the inner one ${text(m.Ms_inner)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
+      `IAE set point ${text(m.IAE_setpoint)}, d1 ${text(m.IAE_d1)}, d2 ${text(m.IAE_d2)}`
+    );
   }
 }

@@ -1,12 +1,30 @@
 // The four panels of the cascade: both outputs, the input, Nyquist and |S| of both loops.
 
+import {
+  D,
+  EMPTY,
+  extent,
+  magnitudePanel,
+  nyquistCurves,
+  nyquistPanel,
+  R,
+  S_LINE,
+  timePanel,
+  U,
+  unity,
+  Y,
+} from "../kit/curves.js";
+import { round, text } from "../kit/format.js";
+import { sensitivities } from "../kit/table.js";
+
 const INNER = "#009E73";
 const INNER_DASH = [8, 4];
 const LEAVES = 100; // what grows is drawn until it is this large, in steps of r
 
-function cascadePanels(setup, scale) {
+export function cascadePanels(setup, scale) {
   const { t, omega, starts } = setup;
-  const end = t.at(-1), window = [0, end];
+  const end = t.at(-1),
+    window = [0, end];
   const [atD1, atD2] = starts.map((start) => text(start, 3));
   /** Limits of y as long as the cascade is sound, and after that those it had last: growing curves leave the panel. */
   const keeping = (always) => {
@@ -16,26 +34,77 @@ function cascadePanels(setup, scale) {
       return round(...range);
     };
   };
-  const output = timePanel({
-    key: "y", title: "Outputs y1, y2", short: "y1, y2", aids: 3, names: ["y2", "y1"],
-    legend: [{ text: "y1", color: Y }, { text: "y2", color: INNER, dash: true }, { text: `d1 at ${atD1}, d2 at ${atD2}`, color: D, dash: true }],
-    y: { label: "y1, y2", limits: keeping([0, 1.05]) },
-    styles: [{ color: R, dash: [5, 4], width: 1.5 }, ...starts.map(() => ({ color: D, dash: [2, 3], width: 1.2 })), { color: INNER, dash: INNER_DASH, width: 1.8 }, { color: Y, width: 2.2 }],
-  }, end, scale);
-  const input = timePanel({
-    key: "u", title: "Input u", short: "u", aids: 2, names: ["u"], legend: [{ text: "u", color: U }],
-    y: { label: "u", limits: keeping([0, 0]) },
-    styles: [...starts.map(() => ({ color: D, dash: [2, 3], width: 1.2 })), { color: U, width: 2.2 }],
-  }, end, scale);
-  const nyquist = nyquistPanel({
-    title: "Nyquist", legend: [{ text: "La", color: Y }, { text: "Lb", color: INNER, dash: true }, { text: "their Ms", color: S_LINE }],
-    loops: [{ name: "Lb", color: INNER, dash: INNER_DASH, ring: S_LINE }, { name: "La", color: Y, ring: S_LINE }],
-  }, omega, scale);
-  const sensitivity = magnitudePanel({
-    key: "sensitivity", title: "|S| of both loops", short: "|S|", names: ["|Sb|", "|Sa|"],
-    legend: [{ text: "|Sa|", color: Y }, { text: "|Sb|", color: INNER, dash: true }],
-    styles: [{ color: INNER, dash: INNER_DASH, width: 1.8 }, { color: Y, width: 2.2 }],
-  }, omega, scale);
+  const output = timePanel(
+    {
+      key: "y",
+      title: "Outputs y1, y2",
+      short: "y1, y2",
+      aids: 3,
+      names: ["y2", "y1"],
+      legend: [
+        { text: "y1", color: Y },
+        { text: "y2", color: INNER, dash: true },
+        { text: `d1 at ${atD1}, d2 at ${atD2}`, color: D, dash: true },
+      ],
+      y: { label: "y1, y2", limits: keeping([0, 1.05]) },
+      styles: [
+        { color: R, dash: [5, 4], width: 1.5 },
+        ...starts.map(() => ({ color: D, dash: [2, 3], width: 1.2 })),
+        { color: INNER, dash: INNER_DASH, width: 1.8 },
+        { color: Y, width: 2.2 },
+      ],
+    },
+    end,
+    scale,
+  );
+  const input = timePanel(
+    {
+      key: "u",
+      title: "Input u",
+      short: "u",
+      aids: 2,
+      names: ["u"],
+      legend: [{ text: "u", color: U }],
+      y: { label: "u", limits: keeping([0, 0]) },
+      styles: [...starts.map(() => ({ color: D, dash: [2, 3], width: 1.2 })), { color: U, width: 2.2 }],
+    },
+    end,
+    scale,
+  );
+  const nyquist = nyquistPanel(
+    {
+      title: "Nyquist",
+      legend: [
+        { text: "La", color: Y },
+        { text: "Lb", color: INNER, dash: true },
+        { text: "their Ms", color: S_LINE },
+      ],
+      loops: [
+        { name: "Lb", color: INNER, dash: INNER_DASH, ring: S_LINE },
+        { name: "La", color: Y, ring: S_LINE },
+      ],
+    },
+    omega,
+    scale,
+  );
+  const sensitivity = magnitudePanel(
+    {
+      key: "sensitivity",
+      title: "|S| of both loops",
+      short: "|S|",
+      names: ["|Sb|", "|Sa|"],
+      legend: [
+        { text: "|Sa|", color: Y },
+        { text: "|Sb|", color: INNER, dash: true },
+      ],
+      styles: [
+        { color: INNER, dash: INNER_DASH, width: 1.8 },
+        { color: Y, width: 2.2 },
+      ],
+    },
+    omega,
+    scale,
+  );
 
   const step = { x: [0, 0, end], y: [0, 1, 1] };
   const loads = starts.map((start) => ({ x: [start, start], y: [-1e6, 1e6] }));

@@ -89,11 +89,26 @@ export function grid(L) {
 export function margins(L, omega = grid(L)) {
   const values = omega.map((w) => logL(L, w));
   const at = (w) => logL(L, w);
-  const S = largest(omega, values.map((v) => peaks(v)[0]), (w) => peaks(at(w))[0]);
-  const T = largest(omega, values.map((v) => peaks(v)[1]), (w) => peaks(at(w))[1]);
+  const S = largest(
+    omega,
+    values.map((v) => peaks(v)[0]),
+    (w) => peaks(at(w))[0],
+  );
+  const T = largest(
+    omega,
+    values.map((v) => peaks(v)[1]),
+    (w) => peaks(at(w))[1],
+  );
   const integral = L.den.some(([, , c]) => !c);
   const atInfinity = edge(L);
-  const found = { Ms: Math.max(S, atInfinity.S, 1), Mt: Math.max(T, atInfinity.T, integral ? 1 : 0), GM: Infinity, GM_lower: 0, PM_deg: Infinity, delay_margin: Infinity };
+  const found = {
+    Ms: Math.max(S, atInfinity.S, 1),
+    Mt: Math.max(T, atInfinity.T, integral ? 1 : 0),
+    GM: Infinity,
+    GM_lower: 0,
+    PM_deg: Infinity,
+    delay_margin: Infinity,
+  };
   for (let i = 0; i + 1 < omega.length; i++) {
     const [[s0, p0], [s1, p1]] = [values[i], values[i + 1]];
     if (s0 * s1 <= 0 && s0 !== s1) {
@@ -177,7 +192,9 @@ export function unstablePoles(L) {
   if (L.theta && end.L >= 1) return Infinity;
   const corners = cornersOf(L);
   const inside = Math.min(...corners);
-  const moved = L.den.map(([a, b, c]) => (a ? [a, Math.max(Math.abs(b), Math.sqrt(2 * a * c)), c] : c ? [0, Math.abs(b), c] : [0, 1, inside]));
+  const moved = L.den.map(([a, b, c]) =>
+    a ? [a, Math.max(Math.abs(b), Math.sqrt(2 * a * c)), c] : c ? [0, Math.abs(b), c] : [0, 1, inside],
+  );
   let high = 1e3 * Math.max(...corners);
   for (let i = 0; i < HALVINGS && logL(L, high)[0] > Math.log(Math.max(0.1, 2 * end.L)); i++) high *= 2;
   const f = (omega) => {

@@ -31,7 +31,9 @@ const COUNTED = 0.05; // share of the last quarter above which an integral is no
 /** IAE and TV of unit steps, overshoot of the set-point step; sums over the points drawn, good to two digits. */
 export function measures({ t, y, u }) {
   const target = [1, 0];
-  const IAE = y.map((curve, i) => told(t, (k) => (Math.abs(target[i] - curve[k]) + Math.abs(target[i] - curve[k + 1])) / 2 * (t[k + 1] - t[k])));
+  const IAE = y.map((curve, i) =>
+    told(t, (k) => ((Math.abs(target[i] - curve[k]) + Math.abs(target[i] - curve[k + 1])) / 2) * (t[k + 1] - t[k])),
+  );
   const TV = u.map((curve) => curve.reduce((sum, value, k) => sum + (k ? Math.abs(value - curve[k - 1]) : 0), 0));
   return {
     IAE_setpoint: IAE[0],

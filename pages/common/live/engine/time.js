@@ -150,7 +150,8 @@ function whole(ring) {
       for (let i = 0; i < INPUTS; i++) {
         let w = 0;
         for (let j = 0; j < ORDER; j++) w += P[j] * piece[j * INPUTS + i];
-        for (let j = 0; j < BRIEF_ORDER; j++) W[j * INPUTS + i] += ((2 * j + 1) * Q[j] * w * weight) / (2 * ring.length);
+        for (let j = 0; j < BRIEF_ORDER; j++)
+          W[j * INPUTS + i] += ((2 * j + 1) * Q[j] * w * weight) / (2 * ring.length);
       }
     }
   return W;

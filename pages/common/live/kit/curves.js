@@ -1,24 +1,49 @@
 // Panels that both instruments have: colours, time axes, Nyquist with its Ms circles, sensitivities.
 
-const Y = "#0072B2", U = "#D55E00", R = "#8A9096", D = "#CC79A7", S_LINE = "#C77C00";
-const PIN_DASHES = [[8, 4], [2, 3], [8, 3, 2, 3], [14, 4]];
-const SHADES = { [Y]: ["#4C9FD0", "#6FB3DB", "#8CC3E3", "#A5D0EA"], [U]: ["#E68A4A", "#ECA06C", "#F0B38A", "#F4C4A4"], [S_LINE]: ["#D99A3A", "#E0AC5C", "#E7BE80", "#EDCEA0"] };
-const CIRCLES = [[1.4, 0.61], [1.6, 1.4], [2, 2.27]]; // Ms, and where its label sits on the circle
-const AXES = [{ x: [-1e3, 1e3], y: [0, 0] }, { x: [0, 0], y: [-1e3, 1e3] }];
-const EMPTY = { x: [], y: [] };
+import { nearest, text } from "./format.js";
+import { ALARM, Panel } from "./panel.js";
 
-const pinned = (color, pins) => pins.map((_, i) => ({ color: SHADES[color][i], dash: PIN_DASHES[i], width: 1.6 }));
+export const Y = "#0072B2";
+export const U = "#D55E00";
+export const R = "#8A9096";
+export const D = "#CC79A7";
+export const S_LINE = "#C77C00";
+const PIN_DASHES = [
+  [8, 4],
+  [2, 3],
+  [8, 3, 2, 3],
+  [14, 4],
+];
+export const SHADES = {
+  [Y]: ["#4C9FD0", "#6FB3DB", "#8CC3E3", "#A5D0EA"],
+  [U]: ["#E68A4A", "#ECA06C", "#F0B38A", "#F4C4A4"],
+  [S_LINE]: ["#D99A3A", "#E0AC5C", "#E7BE80", "#EDCEA0"],
+};
+const CIRCLES = [
+  [1.4, 0.61],
+  [1.6, 1.4],
+  [2, 2.27],
+]; // Ms, and where its label sits on the circle
+const AXES = [
+  { x: [-1e3, 1e3], y: [0, 0] },
+  { x: [0, 0], y: [-1e3, 1e3] },
+];
+export const EMPTY = { x: [], y: [] };
+
+export const pinned = (color, pins) =>
+  pins.map((_, i) => ({ color: SHADES[color][i], dash: PIN_DASHES[i], width: 1.6 }));
 
 /** What the last curves of the panel, called `names`, are at the instant or frequency nearest to the cursor. */
 const tellNearest = (axis, names) => (panel, at) => {
-  const curves = panel.curves.slice(-names.length), { x } = curves[0];
+  const curves = panel.curves.slice(-names.length),
+    { x } = curves[0];
   if (!x.length) return "";
   const i = nearest(x, at);
   return [`${axis} = ${text(x[i])}`, ...names.map((name, n) => `${name} = ${text(curves[n].y[i])}`)].join("   ");
 };
 
 /** Smallest and largest value of the panel's curves, and always `always`. */
-function extent(panel, [from, to], always) {
+export function extent(panel, [from, to], always) {
   let [low, high] = always;
   for (const { x, y } of panel.curves.slice(panel.spec.aids ?? 0)) // what only helps the eye does not count
     for (let i = 0; i < y.length; i++)
@@ -30,12 +55,15 @@ function extent(panel, [from, to], always) {
 }
 
 /** spec: as of a Panel, without x; names: of its last curves. */
-function timePanel({ names, ...spec }, end, scale) {
-  return new Panel({ ...spec, x: { label: "t  [time unit]", limits: () => [0, end] }, tell: tellNearest("t", names) }, scale);
+export function timePanel({ names, ...spec }, end, scale) {
+  return new Panel(
+    { ...spec, x: { label: "t  [time unit]", limits: () => [0, end] }, tell: tellNearest("t", names) },
+    scale,
+  );
 }
 
 /** loops [{name, color, dash, ring}]: L of each, and the colour of the circle that it touches; behind: more styles. */
-function nyquistPanel({ title, loops, legend, behind = [] }, omega, scale) {
+export function nyquistPanel({ title, loops, legend, behind = [] }, omega, scale) {
   const tell = (panel, x, y) => {
     let best = null;
     for (const [n, { x: re, y: im }] of panel.curves.slice(-loops.length).entries())
@@ -43,39 +71,68 @@ function nyquistPanel({ title, loops, legend, behind = [] }, omega, scale) {
         const away = Math.hypot(re[i] - x, im[i] - y);
         if (!best || away < best.away) best = { away, i, name: loops[n].name, re: re[i], im: im[i] };
       }
-    return best ? `ω = ${text(omega[best.i])}   ${best.name} = ${text(best.re, 3)} ${best.im < 0 ? "−" : "+"} ${text(Math.abs(best.im), 3)} j` : "";
+    return best
+      ? `ω = ${text(omega[best.i])}   ${best.name} = ${text(best.re, 3)} ${best.im < 0 ? "−" : "+"} ${text(Math.abs(best.im), 3)} j`
+      : "";
   };
-  return new Panel({
-    key: "nyquist", title, short: "Nyquist", square: true, tell,
-    legend: [...legend, { text: "Ms 1.4, 1.6, 2.0", color: R, dash: true }],
-    x: { label: "Re L", limits: () => [-2.4, 0.9] }, y: { label: "Im L", limits: () => [-1.75, 0.8] },
-    styles: [{ color: R, width: 1 }, { color: R, width: 1 }, ...CIRCLES.map(() => ({ color: R, dash: [2, 3], width: 1 })),
-      ...loops.map(({ ring, dash }) => ({ color: ring, width: 1.6, dash })), ...behind, ...loops.map(({ color, dash }) => ({ color, dash, width: 2.2 }))],
-  }, scale);
+  return new Panel(
+    {
+      key: "nyquist",
+      title,
+      short: "Nyquist",
+      square: true,
+      tell,
+      legend: [...legend, { text: "Ms 1.4, 1.6, 2.0", color: R, dash: true }],
+      x: { label: "Re L", limits: () => [-2.4, 0.9] },
+      y: { label: "Im L", limits: () => [-1.75, 0.8] },
+      styles: [
+        { color: R, width: 1 },
+        { color: R, width: 1 },
+        ...CIRCLES.map(() => ({ color: R, dash: [2, 3], width: 1 })),
+        ...loops.map(({ ring, dash }) => ({ color: ring, width: 1.6, dash })),
+        ...behind,
+        ...loops.map(({ color, dash }) => ({ color, dash, width: 2.2 })),
+      ],
+    },
+    scale,
+  );
 }
 
 /** Curves and marks for a nyquistPanel: peaks Ms of the loops, what is behind, L of the loops. */
-function nyquistCurves(peaks, behind, loops) {
+export function nyquistCurves(peaks, behind, loops) {
   const rings = peaks.map((Ms) => (Number.isFinite(Ms) ? circle(Ms) : EMPTY));
-  const labels = CIRCLES.map(([Ms, at]) => ({ x: -1 + Math.cos(at) / Ms, y: Math.sin(at) / Ms, label: Ms.toFixed(1), align: at > 1.5 ? "right" : "left" }));
+  const labels = CIRCLES.map(([Ms, at]) => ({
+    x: -1 + Math.cos(at) / Ms,
+    y: Math.sin(at) / Ms,
+    label: Ms.toFixed(1),
+    align: at > 1.5 ? "right" : "left",
+  }));
   const point = { x: -1, y: 0, color: ALARM, label: "−1", cross: true, align: "right" };
-  return [[...AXES, ...CIRCLES.map(([Ms]) => circle(Ms)), ...rings, ...behind, ...loops], [...labels, point]];
+  return [
+    [...AXES, ...CIRCLES.map(([Ms]) => circle(Ms)), ...rings, ...behind, ...loops],
+    [...labels, point],
+  ];
 }
 
 /** Magnitudes over omega; the first curve is the line at 1. */
-function magnitudePanel({ names, styles, ...spec }, omega, scale) {
-  return new Panel({
-    ...spec, tell: tellNearest("ω", names),
-    x: { label: "ω  [rad/time unit]", log: true, limits: () => [omega[0], omega.at(-1)] },
-    y: { label: "", log: true, limits: (p) => [0.01, p.curves.some(({ y }) => y.some((v) => v > 3.2)) ? 100 : 4] },
-    styles: [{ color: R, width: 1 }, ...styles],
-  }, scale);
+export function magnitudePanel({ names, styles, ...spec }, omega, scale) {
+  return new Panel(
+    {
+      ...spec,
+      tell: tellNearest("ω", names),
+      x: { label: "ω  [rad/time unit]", log: true, limits: () => [omega[0], omega.at(-1)] },
+      y: { label: "", log: true, limits: (p) => [0.01, p.curves.some(({ y }) => y.some((v) => v > 3.2)) ? 100 : 4] },
+      styles: [{ color: R, width: 1 }, ...styles],
+    },
+    scale,
+  );
 }
 
-const unity = (omega) => ({ x: [omega[0], omega.at(-1)], y: [1, 1] });
+export const unity = (omega) => ({ x: [omega[0], omega.at(-1)], y: [1, 1] });
 
 function circle(Ms) {
-  const x = [], y = [];
+  const x = [],
+    y = [];
   for (let i = 0; i <= 120; i++) {
     x.push(-1 + Math.cos((i * Math.PI) / 60) / Ms);
     y.push(Math.sin((i * Math.PI) / 60) / Ms);

@@ -1,10 +1,10 @@
 // Numbers in words and on axes.
 
-const STEPS = [];
+export const STEPS = [];
 for (let e = -12; e <= 12; e++) for (const m of [1, 2, 5]) STEPS.push(Number(`${m}e${e}`));
 
 /** Four significant digits at most, no trailing zeros; infinity as the sign. */
-function text(value, digits = 4) {
+export function text(value, digits = 4) {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   const size = Math.abs(value);
@@ -16,21 +16,22 @@ function text(value, digits = 4) {
 }
 
 /** Limits that hold [low, high] and end on round numbers. */
-function round(low, high) {
+export function round(low, high) {
   const span = high - low || Math.abs(high) || 1;
   const step = STEPS.find((s) => span / s <= 6) ?? span;
   return [step * Math.floor(low / step + 1e-9), step * Math.ceil(high / step - 1e-9)];
 }
 
 /** Decades carry numbers; where there is hardly one, 2 and 5 do as well. */
-function isDecade(value, { min, max }) {
+export function isDecade(value, { min, max }) {
   const lead = Number(value.toExponential(3).split("e")[0]);
   return lead === 1 || (Math.log10(max / min) < 2 && (lead === 2 || lead === 5));
 }
 
 /** Index of the entry of increasing `values` nearest to `wanted`. */
-function nearest(values, wanted) {
-  let low = 0, high = values.length - 1;
+export function nearest(values, wanted) {
+  let low = 0,
+    high = values.length - 1;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
     if (values[middle] <= wanted) low = middle;
@@ -40,12 +41,14 @@ function nearest(values, wanted) {
 }
 
 /** Figures from JSON, which has neither infinity nor nan. */
-function numbers(given) {
-  return Object.fromEntries(Object.entries(given).map(([name, v]) => [name, v === null ? NaN : v === "inf" ? Infinity : v]));
+export function numbers(given) {
+  return Object.fromEntries(
+    Object.entries(given).map(([name, v]) => [name, v === null ? NaN : v === "inf" ? Infinity : v]),
+  );
 }
 
 /** A button, never one that submits. */
-function button(words, title, onclick) {
+export function button(words, title, onclick) {
   const made = document.createElement("button");
   Object.assign(made, { type: "button", title, onclick });
   made.textContent = words;

@@ -2,10 +2,14 @@
 // Python sends tables and, after each release, exact numbers; a subclass knows what they mean:
 //   furnished, take(message), panelSets(scale), reading(), figures(now), title(), words(now), release(slider), preset(n)
 
+import { button } from "./format.js";
+import { savePng, saveSvg } from "./picture.js";
+import { Slider } from "./slider.js";
+
 const PERIOD = 8000; // ms for tau_c to go up and down once
 const PATIENCE = 3000; // ms after which an answer that did not come is not waited for any more
 
-class Instrument {
+export class Instrument {
   constructor(root, { sliders, views, figures, hint }) {
     this.root = root;
     this.cells = figures;
@@ -16,7 +20,12 @@ class Instrument {
     this.sliders = sliders.map((each) => new Slider(each, hand));
     this.slider = this.sliders.at(-1); // the one that was touched last
     find(".sliders").append(...this.sliders.map((each) => each.row));
-    this.tabs = views.map(([view, words]) => Object.assign(button(words, "", () => this.look(view)), { value: view }));
+    this.tabs = views.map(([view, words]) =>
+      Object.assign(
+        button(words, "", () => this.look(view)),
+        { value: view },
+      ),
+    );
     find(".views").append(...(views.length > 1 ? this.tabs : []));
     find(".keys").textContent = hint;
     find(".play").onclick = () => (this.playing ? this.stop(true) : this.play());
@@ -57,7 +66,7 @@ class Instrument {
 
   show() {
     if (!this.furnished || !this.slider.tau_c) return;
-    const now = (this.now = this.reading());
+    const now = this.reading();
     if (now.curves !== false) this.views[this.view]?.draw(now);
     this.figures(now);
     this.root.dataset.exact = now.exact;
@@ -68,7 +77,8 @@ class Instrument {
   /** The panels in words, for those who do not see them; only when at rest. */
   describe(now) {
     const words = this.words(now);
-    for (const panel of this.views[this.view].panels) panel.plot.setAttribute("aria-label", `${panel.spec.title}. ${words}`);
+    for (const panel of this.views[this.view].panels)
+      panel.plot.setAttribute("aria-label", `${panel.spec.title}. ${words}`);
     this.root.querySelector(".spoken").textContent = words;
   }
 
@@ -78,14 +88,22 @@ class Instrument {
     const scale = this.root.matches(":popover-open") ? 1.7 : 1;
     const style = getComputedStyle(this.root);
     const color = style.getPropertyValue("--st-text-color").trim() || style.color;
-    this.theme = { text: color, grid: "rgba(138,144,150,0.22)", font: style.fontFamily,
-      page: style.getPropertyValue("--st-background-color").trim() || "#fff" };
-    const zooms = Object.fromEntries(Object.values(this.views).flatMap((v) => v.panels).map((p) => [p.spec.key, p.zoom]));
+    this.theme = {
+      text: color,
+      grid: "rgba(138,144,150,0.22)",
+      font: style.fontFamily,
+      page: style.getPropertyValue("--st-background-color").trim() || "#fff",
+    };
+    const zooms = Object.fromEntries(
+      Object.values(this.views)
+        .flatMap((v) => v.panels)
+        .map((p) => [p.spec.key, p.zoom]),
+    );
     this.views = this.panelSets(scale);
     for (const [name, { panels }] of Object.entries(this.views)) {
       this.root.querySelector(`.field.${name}`).replaceChildren(...panels.map((panel) => panel.box));
       for (const panel of panels) {
-        panel.zoom = panel.spec.x.label.startsWith("t ") && end !== this.end ? null : zooms[panel.spec.key] ?? null;
+        panel.zoom = panel.spec.x.label.startsWith("t ") && end !== this.end ? null : (zooms[panel.spec.key] ?? null);
         panel.single.onclick = () => this.alone(panel.spec.key);
         panel.box.classList.toggle("shown", panel.spec.key === this.only);
       }
@@ -95,13 +113,14 @@ class Instrument {
   }
 
   fit() {
-    for (const panel of this.views[this.view]?.panels ?? []) panel.chart ? panel.resize() : panel.plot.clientWidth && panel.build(this.theme);
+    for (const panel of this.views[this.view]?.panels ?? [])
+      panel.chart ? panel.resize() : panel.plot.clientWidth && panel.build(this.theme);
   }
 
   look(view) {
     this.view = view;
     this.root.dataset.view = view;
-    this.tabs.forEach((b) => b.setAttribute("aria-pressed", b.value === view));
+    for (const tab of this.tabs) tab.setAttribute("aria-pressed", tab.value === view);
     if (!this.views[view]?.panels.some((panel) => panel.spec.key === this.only)) this.only = undefined;
     this.root.classList.toggle("alone", Boolean(this.only));
     this.choose();
@@ -126,7 +145,8 @@ class Instrument {
   alone(key) {
     this.only = this.only === key ? undefined : key;
     this.root.classList.toggle("alone", Boolean(this.only));
-    this.root.querySelectorAll("figure").forEach((box) => box.classList.toggle("shown", box.dataset.panel === this.only));
+    for (const box of this.root.querySelectorAll("figure"))
+      box.classList.toggle("shown", box.dataset.panel === this.only);
     this.choose();
     requestAnimationFrame(() => {
       this.fit();
@@ -138,7 +158,8 @@ class Instrument {
   play() {
     const slider = this.slider;
     if (slider.fixed) return;
-    const middle = slider.tau_c, begin = performance.now();
+    const middle = slider.tau_c,
+      begin = performance.now();
     this.root.querySelector(".play").setAttribute("aria-pressed", "true");
     const step = (now) => {
       const swing = 3 ** Math.sin((2 * Math.PI * (now - begin)) / PERIOD);

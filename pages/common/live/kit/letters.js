@@ -1,6 +1,7 @@
 // Where messages for the instrument `name` wait until it is there.
 
-function letters(name) {
-  const boxes = (globalThis.simcLetters ??= {});
-  return (boxes[name] ??= { open: null, waiting: [] });
+export function letters(name) {
+  globalThis.simcLetters ??= {};
+  globalThis.simcLetters[name] ??= { open: null, waiting: [] };
+  return globalThis.simcLetters[name];
 }

@@ -1,6 +1,9 @@
 // An instrument on the page. Messages come as elements of their own (message.js), some of them before it is there.
 
-function mount(name, make) {
+import { letters } from "./letters.js";
+import { unpack } from "./table.js";
+
+export function mount(name, make) {
   const live = new Map(); // element of the page -> its instrument
   return ({ parentElement, data, setTriggerValue }) => {
     let one = live.get(parentElement);

@@ -1,8 +1,10 @@
 // One panel: uPlot draws axes, grid, curves and cursor; every curve brings its own x, so that L(jw) is one like the rest.
 
-const ALARM = "#C8442E";
+import { button, isDecade, STEPS, text } from "./format.js";
 
-class Panel {
+export const ALARM = "#C8442E";
+
+export class Panel {
   /**
    * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)}, styles [{color, dash, width, alpha}],
    * square: one unit is as long on both axes.   tell(panel, x, y): what to read at the cursor.
@@ -43,7 +45,11 @@ class Panel {
         y: { distr: spec.y.log ? 3 : 1, range: (u) => this.limits(u).y },
       },
       axes: ["x", "y"].map((side) => axis(side, spec[side], theme, scale)),
-      cursor: { points: { show: false }, drag: { x: true, y: true, uni: 8, setScale: false }, bind: { dblclick: () => () => this.reset() } },
+      cursor: {
+        points: { show: false },
+        drag: { x: true, y: true, uni: 8, setScale: false },
+        bind: { dblclick: () => () => this.reset() },
+      },
       series: [
         {},
         ...spec.styles.map((style, i) => ({
@@ -121,7 +127,8 @@ class Panel {
     ctx.save();
     ctx.font = `${11 * ratio}px ${theme.font}`;
     for (const { x, y, color, label, cross, align, below } of this.marks) {
-      const a = u.valToPos(x, "x", true), b = u.valToPos(y, "y", true);
+      const a = u.valToPos(x, "x", true),
+        b = u.valToPos(y, "y", true);
       const inside = a >= bbox.left && a <= bbox.left + bbox.width && b >= bbox.top && b <= bbox.top + bbox.height;
       if (!inside) continue;
       ctx.strokeStyle = ctx.fillStyle = color ?? theme.text;
@@ -139,10 +146,17 @@ class Panel {
         ctx.fill();
       }
       if (!label) continue;
-      const right = align === "right" || (!align && a + ctx.measureText(label).width + 8 * ratio > bbox.left + bbox.width);
+      const right =
+        align === "right" || (!align && a + ctx.measureText(label).width + 8 * ratio > bbox.left + bbox.width);
       ctx.fillStyle = theme.text;
       ctx.textAlign = right ? "right" : "left";
-      ctx.fillText(label, a + (right ? -6 : 6) * ratio, below ? Math.min(b + 15 * ratio, bbox.top + bbox.height - 2 * ratio) : Math.max(b - 5 * ratio, bbox.top + 10 * ratio));
+      ctx.fillText(
+        label,
+        a + (right ? -6 : 6) * ratio,
+        below
+          ? Math.min(b + 15 * ratio, bbox.top + bbox.height - 2 * ratio)
+          : Math.max(b - 5 * ratio, bbox.top + 10 * ratio),
+      );
     }
     if (this.note) {
       ctx.font = `600 ${13 * ratio}px ${theme.font}`;
@@ -190,16 +204,24 @@ function axis(side, { label, log }, theme, scale) {
     labelGap: 0,
     size: (side === "x" ? 22 : 44) * scale,
     gap: 3,
-    grid: { stroke: theme.grid, width: 1, ...(log && { filter: (u, ticks) => ticks.map((v) => (v !== null && isDecade(v, u.scales[side]) ? v : null)) }) },
+    grid: {
+      stroke: theme.grid,
+      width: 1,
+      ...(log && { filter: (u, ticks) => ticks.map((v) => (v !== null && isDecade(v, u.scales[side]) ? v : null)) }),
+    },
     ticks: { stroke: theme.grid, width: 1, size: 4 },
     ...(log
-      ? { splits: (u, index, low, high) => logTicks(low, high), filter: (u, ticks) => ticks, values: (u, ticks) => ticks.map((v) => (v === null || !isDecade(v, u.scales[side]) ? "" : text(v))) }
-      : { incrs: STEPS, space: (side === "x" ? 50 : 28) * scale, values: (u, ticks) => ticks.map((v) => text(v)) }),
+      ? {
+          splits: (_u, _index, low, high) => logTicks(low, high),
+          filter: (_u, ticks) => ticks,
+          values: (u, ticks) => ticks.map((v) => (v === null || !isDecade(v, u.scales[side]) ? "" : text(v))),
+        }
+      : { incrs: STEPS, space: (side === "x" ? 50 : 28) * scale, values: (_u, ticks) => ticks.map((v) => text(v)) }),
   };
 }
 
 /** 1 to 9 of every decade within the limits; uPlot counts on from the lower one, round or not. */
-function logTicks(low, high) {
+export function logTicks(low, high) {
   const ticks = [];
   for (let e = Math.floor(Math.log10(low)); e <= Math.log10(high); e++)
     for (let m = 1; m < 10; m++) ticks.push(Number(`${m}e${e}`));
@@ -207,10 +229,11 @@ function logTicks(low, high) {
 }
 
 /** The curve on a pen that knows moveTo and lineTo, in pixels of the canvas, or of the page. */
-function trace(u, { x, y }, pen, canvas) {
+export function trace(u, { x, y }, pen, canvas) {
   let down = false;
   for (let i = 0; i < x.length; i++) {
-    const a = u.valToPos(x[i], "x", canvas), b = u.valToPos(y[i], "y", canvas);
+    const a = u.valToPos(x[i], "x", canvas),
+      b = u.valToPos(y[i], "y", canvas);
     if (!Number.isFinite(a) || !Number.isFinite(b)) {
       down = false;
       continue;
@@ -232,7 +255,7 @@ function swatch({ text: label, color, dash }) {
 }
 
 /** One unit as long across as up: the axis with room to spare shows more. */
-function square(u, x, y) {
+export function square(u, x, y) {
   const { width, height } = u.bbox ?? {};
   if (!width || !height) return { x, y };
   const unit = Math.max((x[1] - x[0]) / width, (y[1] - y[0]) / height);

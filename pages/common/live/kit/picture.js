@@ -1,19 +1,30 @@
 // The panels in sight as a file: PNG from their canvases, SVG from their curves.
 
+import { escaped, place, svgPanel, svgText } from "./svg.js";
+
 /** Panels shown, with their places on the sheet in pixels of the page. */
 function sheetOf(live) {
   const origin = live.root.querySelector(`.field.${live.view}`).getBoundingClientRect();
-  const places = live.views[live.view].panels.filter((panel) => panel.box.offsetParent || panel.box.checkVisibility()).map((panel) => {
-    const head = panel.box.getBoundingClientRect(), at = panel.plot.getBoundingClientRect();
-    return { panel, head: head.top - origin.top + TITLE + 15 * panel.scale, left: at.left - origin.left, top: at.top - origin.top + TITLE };
-  });
+  const places = live.views[live.view].panels
+    .filter((panel) => panel.box.offsetParent || panel.box.checkVisibility())
+    .map((panel) => {
+      const head = panel.box.getBoundingClientRect(),
+        at = panel.plot.getBoundingClientRect();
+      return {
+        panel,
+        head: head.top - origin.top + TITLE + 15 * panel.scale,
+        left: at.left - origin.left,
+        top: at.top - origin.top + TITLE,
+      };
+    });
   return { width: origin.width, height: origin.height + TITLE, places };
 }
 
 const TITLE = 22; // height of the line above all panels
 
-function savePng(live) {
-  const { width, height, places } = sheetOf(live), ratio = devicePixelRatio;
+export function savePng(live) {
+  const { width, height, places } = sheetOf(live),
+    ratio = devicePixelRatio;
   const sheet = document.createElement("canvas");
   sheet.width = width * ratio;
   sheet.height = height * ratio;
@@ -33,11 +44,12 @@ function savePng(live) {
   download(live, sheet.toDataURL("image/png"), "png");
 }
 
-function saveSvg(live) {
+export function saveSvg(live) {
   const { width, height, places } = sheetOf(live);
   const { page, text: ink, font } = live.theme;
   const parts = places.map(({ panel, head, left, top }, i) => svgPanel(panel, left, top, head, `panel${i}`));
-  const svg = `<svg xmlns="http://www.w3.org/2000/svg" width="${place(width)}" height="${place(height)}" viewBox="0 0 ${place(width)} ${place(height)}" font-family="${escaped(font)}" fill="${ink}">` +
+  const svg =
+    `<svg xmlns="http://www.w3.org/2000/svg" width="${place(width)}" height="${place(height)}" viewBox="0 0 ${place(width)} ${place(height)}" font-family="${escaped(font)}" fill="${ink}">` +
     `<title>${escaped(live.title())}</title><rect width="100%" height="100%" fill="${page}"/>${svgText(4, 15, live.title(), { weight: 600, size: 13 })}\n${parts.join("\n")}</svg>`;
   const address = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   download(live, address, "svg");

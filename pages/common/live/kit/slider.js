@@ -1,6 +1,8 @@
 // tau_c or lambda on a logarithmic track: mouse, touch, keyboard. Ranges without a stable loop are hatched.
 
-class Slider {
+import { STEPS, text } from "./format.js";
+
+export class Slider {
   /**
    * name: for the instrument; symbol: HTML; label: for those who do not see it.
    * moved(slider): while it moves.   released(slider): when it comes to rest.
@@ -13,7 +15,14 @@ class Slider {
       <div class="track"><div class="rail"></div><div class="handle" role="slider" tabindex="0" aria-orientation="horizontal"></div><div class="scale" aria-hidden="true"></div></div>
       <div class="settings"></div>`;
     const find = (selector) => this.row.querySelector(selector);
-    [this.value, this.track, this.rail, this.scale, this.handle, this.settings] = [".value", ".track", ".rail", ".scale", ".handle", ".settings"].map(find);
+    [this.value, this.track, this.rail, this.scale, this.handle, this.settings] = [
+      ".value",
+      ".track",
+      ".rail",
+      ".scale",
+      ".handle",
+      ".settings",
+    ].map(find);
     this.call(symbol, label);
     this.track.addEventListener("pointerdown", (event) => this.grab(event));
     this.track.addEventListener("pointermove", (event) => this.dragging && this.follow(event));
@@ -76,7 +85,8 @@ class Slider {
   /** What the controller's settings are there; exact: all digits on hover. */
   tell(settings, exact) {
     this.settings.innerHTML = Object.entries(settings)
-      .map(([name, value]) => `<span title="${exact ? value : ""}">${typeset(name)} <b>${text(value)}</b></span>`).join("");
+      .map(([name, value]) => `<span title="${exact ? value : ""}">${typeset(name)} <b>${text(value)}</b></span>`)
+      .join("");
   }
 
   move(tau_c) {
@@ -108,10 +118,14 @@ class Slider {
     if (this.fixed) return;
     const step = 10 ** (event.shiftKey ? 1 / 200 : 1 / 40);
     const to = {
-      ArrowRight: this.tau_c * step, ArrowUp: this.tau_c * step,
-      ArrowLeft: this.tau_c / step, ArrowDown: this.tau_c / step,
-      PageUp: this.tau_c * 2, PageDown: this.tau_c / 2,
-      Home: this.low, End: this.high,
+      ArrowRight: this.tau_c * step,
+      ArrowUp: this.tau_c * step,
+      ArrowLeft: this.tau_c / step,
+      ArrowDown: this.tau_c / step,
+      PageUp: this.tau_c * 2,
+      PageDown: this.tau_c / 2,
+      Home: this.low,
+      End: this.high,
     }[event.key];
     if (to === undefined) return;
     event.preventDefault();

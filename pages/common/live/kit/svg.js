@@ -1,45 +1,74 @@
 // Panels as SVG: the same curves, ticks, labels and marks as on the canvas, as paths and text.
 
-const escaped = (words) => String(words).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
-const place = (v) => (Math.round(v * 100) / 100).toString();
+import { ALARM, trace } from "./panel.js";
+
+export const escaped = (words) =>
+  String(words).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
+export const place = (v) => (Math.round(v * 100) / 100).toString();
 
 /** A pen for trace() that writes path data. */
 class SvgPen {
   parts = [];
-  moveTo(x, y) { this.parts.push(`M${place(x)} ${place(y)}`); }
-  lineTo(x, y) { this.parts.push(`L${place(x)} ${place(y)}`); }
+  moveTo(x, y) {
+    this.parts.push(`M${place(x)} ${place(y)}`);
+  }
+  lineTo(x, y) {
+    this.parts.push(`L${place(x)} ${place(y)}`);
+  }
 }
 
-function svgText(x, y, words, { anchor = "start", weight = 400, size = 11, turn = 0, color = "" } = {}) {
-  return `<text x="${place(x)}" y="${place(y)}" text-anchor="${anchor}" font-size="${size}" font-weight="${weight}"${color && ` fill="${color}"`}` +
-    `${turn ? ` transform="rotate(${turn} ${place(x)} ${place(y)})"` : ""}>${escaped(words)}</text>`;
+export function svgText(x, y, words, { anchor = "start", weight = 400, size = 11, turn = 0, color = "" } = {}) {
+  return (
+    `<text x="${place(x)}" y="${place(y)}" text-anchor="${anchor}" font-size="${size}" font-weight="${weight}"${color && ` fill="${color}"`}` +
+    `${turn ? ` transform="rotate(${turn} ${place(x)} ${place(y)})"` : ""}>${escaped(words)}</text>`
+  );
 }
 
 /** One panel with its corner of the plot at (left, top); id: of its clip path. */
-function svgPanel(panel, left, top, head, id) {
+export function svgPanel(panel, left, top, head, id) {
   const { chart: u, spec, scale, theme } = panel;
-  const width = u.over.clientWidth, height = u.over.clientHeight;
+  const width = u.over.clientWidth,
+    height = u.over.clientHeight;
   const [x0, y0] = [left + u.over.offsetLeft, top + u.over.offsetTop];
   const size = 11 * scale;
-  const out = [`<clipPath id="${id}"><rect width="${width}" height="${height}"/></clipPath>`, svgHead(panel, left, head)];
-  const grid = [], words = [];
+  const out = [
+    `<clipPath id="${id}"><rect width="${width}" height="${height}"/></clipPath>`,
+    svgHead(panel, left, head),
+  ];
+  const grid = [],
+    words = [];
   for (const [i, side] of ["x", "y"].entries()) {
     u.axes[i]._splits.forEach((value, n) => {
-      const shown = u.axes[i]._values[n], at = u.valToPos(value, side);
+      const shown = u.axes[i]._values[n],
+        at = u.valToPos(value, side);
       if (!shown || at < -1 || at > (i ? height : width) + 1) return;
       grid.push(i ? `M0 ${place(at)}H${width}` : `M${place(at)} 0V${height}`);
-      words.push(i ? svgText(x0 - 6 * scale, y0 + at + size / 3, shown, { anchor: "end", size }) : svgText(x0 + at, y0 + height + 1.4 * size, shown, { anchor: "middle", size }));
+      words.push(
+        i
+          ? svgText(x0 - 6 * scale, y0 + at + size / 3, shown, { anchor: "end", size })
+          : svgText(x0 + at, y0 + height + 1.4 * size, shown, { anchor: "middle", size }),
+      );
     });
   }
-  if (spec.x.label) words.push(svgText(x0 + width / 2, y0 + height + 2.9 * size, spec.x.label, { anchor: "middle", size }));
-  if (spec.y.label) words.push(svgText(left + size, y0 + height / 2, spec.y.label, { anchor: "middle", size, turn: -90 }));
-  const shades = panel.shades(u, false).map(([x, y, w, h, color]) => `<rect x="${place(x)}" y="${place(y)}" width="${place(w)}" height="${place(h)}" fill="${color}"/>`);
+  if (spec.x.label)
+    words.push(svgText(x0 + width / 2, y0 + height + 2.9 * size, spec.x.label, { anchor: "middle", size }));
+  if (spec.y.label)
+    words.push(svgText(left + size, y0 + height / 2, spec.y.label, { anchor: "middle", size, turn: -90 }));
+  const shades = panel
+    .shades(u, false)
+    .map(
+      ([x, y, w, h, color]) =>
+        `<rect x="${place(x)}" y="${place(y)}" width="${place(w)}" height="${place(h)}" fill="${color}"/>`,
+    );
   const curves = panel.curves.map((curve, i) => {
     const { color, width: line = 2, dash } = spec.styles[i];
     return `<path class="curve" d="${trace(u, curve, new SvgPen(), false).parts.join("")}" stroke="${color}" stroke-width="${line * scale}"${dash ? ` stroke-dasharray="${dash.map((d) => d * scale)}"` : ""}/>`;
   });
-  out.push(`<g transform="translate(${place(x0)} ${place(y0)})"><g clip-path="url(#${id})">${shades.join("")}<path d="${grid.join("")}" stroke="${theme.grid}"/>`,
-    `<g fill="none" stroke-linejoin="round">${curves.join("")}</g></g>${svgMarks(panel, width, height, size)}</g>`, ...words);
+  out.push(
+    `<g transform="translate(${place(x0)} ${place(y0)})"><g clip-path="url(#${id})">${shades.join("")}<path d="${grid.join("")}" stroke="${theme.grid}"/>`,
+    `<g fill="none" stroke-linejoin="round">${curves.join("")}</g></g>${svgMarks(panel, width, height, size)}</g>`,
+    ...words,
+  );
   return `<g role="img" aria-label="${escaped(panel.plot.getAttribute("aria-label") ?? spec.title)}">${out.join("\n")}</g>`;
 }
 
@@ -48,7 +77,9 @@ function svgHead({ spec, scale }, left, head) {
   const out = [svgText(left, head, spec.title, { weight: 600, size: 12 * scale })];
   let x = left + (spec.title.length * 6.6 + 14) * scale;
   for (const { text: words, color, dash } of spec.legend ?? []) {
-    out.push(`<path d="M${place(x)} ${place(head - 4 * scale)}h${18 * scale}" stroke="${color}" stroke-width="${2 * scale}"${dash ? ` stroke-dasharray="${5 * scale} ${3 * scale}"` : ""}/>`);
+    out.push(
+      `<path d="M${place(x)} ${place(head - 4 * scale)}h${18 * scale}" stroke="${color}" stroke-width="${2 * scale}"${dash ? ` stroke-dasharray="${5 * scale} ${3 * scale}"` : ""}/>`,
+    );
     out.push(svgText(x + 23 * scale, head, words, { size: 11 * scale }));
     x += (words.length * 6 + 36) * scale;
   }
@@ -56,15 +87,31 @@ function svgHead({ spec, scale }, left, head) {
 }
 
 function svgMarks(panel, width, height, size) {
-  const { chart: u, scale, theme } = panel;
+  const { chart: u, scale } = panel;
   const out = [];
   for (const { x, y, color, label, cross, align, below } of panel.marks) {
-    const a = u.valToPos(x, "x"), b = u.valToPos(y, "y"), r = 5 * scale;
+    const a = u.valToPos(x, "x"),
+      b = u.valToPos(y, "y"),
+      r = 5 * scale;
     if (!(a >= 0 && a <= width && b >= 0 && b <= height)) continue;
-    if (cross) out.push(`<path d="M${place(a - r)} ${place(b)}h${2 * r}M${place(a)} ${place(b - r)}v${2 * r}" stroke="${color}" stroke-width="${2 * scale}"/>`);
+    if (cross)
+      out.push(
+        `<path d="M${place(a - r)} ${place(b)}h${2 * r}M${place(a)} ${place(b - r)}v${2 * r}" stroke="${color}" stroke-width="${2 * scale}"/>`,
+      );
     else if (color) out.push(`<circle cx="${place(a)}" cy="${place(b)}" r="${4.5 * scale}" fill="${color}"/>`);
-    if (label) out.push(svgText(a + (align === "right" ? -6 : 6) * scale, below ? Math.min(b + 15 * scale, height - 2) : Math.max(b - 5 * scale, size), label, { anchor: align === "right" ? "end" : "start", size }));
+    if (label)
+      out.push(
+        svgText(
+          a + (align === "right" ? -6 : 6) * scale,
+          below ? Math.min(b + 15 * scale, height - 2) : Math.max(b - 5 * scale, size),
+          label,
+          { anchor: align === "right" ? "end" : "start", size },
+        ),
+      );
   }
-  if (panel.note) out.push(svgText(width / 2, 18 * scale, panel.note, { anchor: "middle", weight: 600, size: 13 * scale, color: ALARM }));
+  if (panel.note)
+    out.push(
+      svgText(width / 2, 18 * scale, panel.note, { anchor: "middle", weight: 600, size: 13 * scale, color: ALARM }),
+    );
   return out.join("");
 }

@@ -1,7 +1,7 @@
 // The table over tau_c: unpacking it, and reading curves between its rows. simc_core/tau_table.py is the reference.
 
 /** [uint32 n][JSON header, n bytes][float32 blocks in the order of header.blocks: name, rows, columns] */
-function unpack(bytes) {
+export function unpack(bytes) {
   const own = bytes.slice(); // aligned, and not the wire's buffer
   const length = new DataView(own.buffer).getUint32(0, true);
   const header = JSON.parse(new TextDecoder().decode(own.subarray(4, 4 + length)));
@@ -15,12 +15,13 @@ function unpack(bytes) {
 }
 
 /** Rows to mix at x, and their weights: Lagrange through up to four rows, never across a kink. */
-function stencil(x, nodes, breaks) {
+export function stencil(x, nodes, breaks) {
   let i = 0;
   while (i < nodes.length - 2 && nodes[i + 1] < x) i++;
   let b = 0;
   while (b < breaks.length - 2 && breaks[b + 1] <= i) b++;
-  const low = breaks[b], high = breaks[b + 1];
+  const low = breaks[b],
+    high = breaks[b + 1];
   const count = Math.min(4, high - low + 1);
   const first = Math.max(low, Math.min(i - 1, high - count + 1));
   const weights = [];
@@ -33,7 +34,7 @@ function stencil(x, nodes, breaks) {
 }
 
 /** The curve at a stencil, as ordinary numbers. */
-function mix(block, { first, weights }) {
+export function mix(block, { first, weights }) {
   const { columns, values } = block;
   const curve = new Array(columns).fill(0);
   weights.forEach((w, j) => {
@@ -44,7 +45,7 @@ function mix(block, { first, weights }) {
 }
 
 /** A single figure between rows i and i+1; it may be infinite or have no value on one side. */
-function between(values, x, nodes) {
+export function between(values, x, nodes) {
   let i = 0;
   while (i < nodes.length - 2 && nodes[i + 1] < x) i++;
   const share = Math.min(1, Math.max(0, (x - nodes[i]) / (nodes[i + 1] - nodes[i])));
@@ -54,8 +55,9 @@ function between(values, x, nodes) {
 }
 
 /** |S| and |T| of L, exact at every point of it. */
-function sensitivities(re, im) {
-  const S = [], T = [];
+export function sensitivities(re, im) {
+  const S = [],
+    T = [];
   for (let i = 0; i < re.length; i++) {
     const size = 1 / Math.hypot(1 + re[i], im[i]);
     S.push(size);

@@ -1,36 +1,104 @@
 // The four panels of the tuning view, from one reading of the table; pinned designs behind the present one.
 
-function responsePanels(table, scale) {
+import {
+  D,
+  extent,
+  magnitudePanel,
+  nyquistCurves,
+  nyquistPanel,
+  pinned,
+  R,
+  S_LINE,
+  timePanel,
+  U,
+  unity,
+  Y,
+} from "../kit/curves.js";
+import { round, text } from "../kit/format.js";
+import { mix, sensitivities } from "../kit/table.js";
+
+export function responsePanels(table, scale) {
   const { t, omega, pins } = table;
-  const end = t.at(-1), window = [0, end];
+  const end = t.at(-1),
+    window = [0, end];
   const within = ([low, high], cap) => round(Math.max(low, cap[0]), Math.min(high, cap[1]));
-  const output = timePanel({
-    key: "y", title: "Output y", short: "y", aids: 2, names: ["y"],
-    legend: [{ text: "y", color: Y }, { text: "r", color: R, dash: true }, { text: `load d at ${text(table.load, 3)}`, color: D, dash: true }],
-    y: { label: "y", limits: (p) => within(extent(p, window, [0, 1.05]), table.y_cap) },
-    styles: [{ color: R, dash: [5, 4], width: 1.5 }, { color: D, dash: [2, 3], width: 1.2 }, ...pinned(Y, pins), { color: Y, width: 2.2 }],
-  }, end, scale);
-  const input = timePanel({
-    key: "u", title: "Input u", short: "u", names: ["u"], legend: [{ text: "u", color: U }],
-    y: { label: "u", limits: (p) => within(extent(p, window, [0, 0]), table.u_cap) },
-    styles: [...pinned(U, pins), { color: U, width: 2.2 }],
-  }, end, scale);
-  const nyquist = nyquistPanel({
-    title: "Nyquist L(jω)", loops: [{ name: "L", color: Y, ring: S_LINE }], behind: pinned(Y, pins),
-    legend: [{ text: "L", color: Y }, { text: "Ms circle", color: S_LINE }],
-  }, omega, scale);
-  const sensitivity = magnitudePanel({
-    key: "sensitivity", title: "|S| and |T|", short: "|S| |T|", names: ["|T|", "|S|"],
-    legend: [{ text: "|S|", color: S_LINE }, { text: "|T|", color: Y, dash: true }],
-    styles: [...pinned(S_LINE, pins), ...pinned(Y, pins), { color: Y, dash: [9, 4], width: 2 }, { color: S_LINE, width: 2.2 }],
-  }, omega, scale);
+  const output = timePanel(
+    {
+      key: "y",
+      title: "Output y",
+      short: "y",
+      aids: 2,
+      names: ["y"],
+      legend: [
+        { text: "y", color: Y },
+        { text: "r", color: R, dash: true },
+        { text: `load d at ${text(table.load, 3)}`, color: D, dash: true },
+      ],
+      y: { label: "y", limits: (p) => within(extent(p, window, [0, 1.05]), table.y_cap) },
+      styles: [
+        { color: R, dash: [5, 4], width: 1.5 },
+        { color: D, dash: [2, 3], width: 1.2 },
+        ...pinned(Y, pins),
+        { color: Y, width: 2.2 },
+      ],
+    },
+    end,
+    scale,
+  );
+  const input = timePanel(
+    {
+      key: "u",
+      title: "Input u",
+      short: "u",
+      names: ["u"],
+      legend: [{ text: "u", color: U }],
+      y: { label: "u", limits: (p) => within(extent(p, window, [0, 0]), table.u_cap) },
+      styles: [...pinned(U, pins), { color: U, width: 2.2 }],
+    },
+    end,
+    scale,
+  );
+  const nyquist = nyquistPanel(
+    {
+      title: "Nyquist L(jω)",
+      loops: [{ name: "L", color: Y, ring: S_LINE }],
+      behind: pinned(Y, pins),
+      legend: [
+        { text: "L", color: Y },
+        { text: "Ms circle", color: S_LINE },
+      ],
+    },
+    omega,
+    scale,
+  );
+  const sensitivity = magnitudePanel(
+    {
+      key: "sensitivity",
+      title: "|S| and |T|",
+      short: "|S| |T|",
+      names: ["|T|", "|S|"],
+      legend: [
+        { text: "|S|", color: S_LINE },
+        { text: "|T|", color: Y, dash: true },
+      ],
+      styles: [
+        ...pinned(S_LINE, pins),
+        ...pinned(Y, pins),
+        { color: Y, dash: [9, 4], width: 2 },
+        { color: S_LINE, width: 2.2 },
+      ],
+    },
+    omega,
+    scale,
+  );
 
   const step = { x: [0, 0, end], y: [0, 1, 1] };
   const load = { x: [table.load, table.load], y: [-1e6, 1e6] };
   const pinRows = (name) => pins.map((_, i) => mix(table.blocks[name], { first: i, weights: [1] }));
   const [py, pu, pre, pim] = ["pin_y", "pin_u", "pin_re", "pin_im"].map(pinRows);
   const ps = pre.map((re, i) => sensitivities(re, pim[i]));
-  const over = (y) => ({ x: t, y }), on = (curve) => ({ x: omega, y: curve });
+  const over = (y) => ({ x: t, y }),
+    on = (curve) => ({ x: omega, y: curve });
 
   return {
     panels: [output, input, nyquist, sensitivity],
@@ -38,7 +106,14 @@ function responsePanels(table, scale) {
       const note = stable ? "" : "Loop not stable";
       output.show([step, load, ...py.map(over), over(y)], [], note);
       input.show([...pu.map(over), over(u)], [], note);
-      nyquist.show(...nyquistCurves([stable ? metrics.Ms : NaN], pre.map((x, i) => ({ x, y: pim[i] })), [{ x: re, y: im }]), note);
+      nyquist.show(
+        ...nyquistCurves(
+          [stable ? metrics.Ms : NaN],
+          pre.map((x, i) => ({ x, y: pim[i] })),
+          [{ x: re, y: im }],
+        ),
+        note,
+      );
       const { S, T } = sensitivities(re, im);
       sensitivity.show([unity(omega), ...ps.map((p) => on(p.S)), ...ps.map((p) => on(p.T)), on(T), on(S)], [], note);
     },

@@ -1,23 +1,44 @@
 // The instrument of the tuning page: one slider, four panels, the trade-off, presets, the smallest tau_c for an Ms.
 
+import { button, numbers, text } from "../kit/format.js";
+import { Instrument } from "../kit/instrument.js";
+import { strip } from "../kit/strip.js";
+import { between, mix, stencil } from "../kit/table.js";
+import { responsePanels } from "./panels.js";
+import { tradeOffPanels } from "./tradeoff.js";
+
 const FIGURES = [
-  ["Ms", "Ms, peak of |S|", true], ["GM", "Gain margin"], ["PM_deg", "Phase margin °"], ["delay_margin", "Delay margin"],
-  ["IAE_setpoint", "IAE set point"], ["IAE_load", "IAE load"], ["Mt", "Mt, peak of |T|"], ["TV_setpoint", "TV set point"],
-  ["TV_load", "TV load"], ["overshoot", "Overshoot %"], ["noise_gain", "Noise gain"],
+  ["Ms", "Ms, peak of |S|", true],
+  ["GM", "Gain margin"],
+  ["PM_deg", "Phase margin °"],
+  ["delay_margin", "Delay margin"],
+  ["IAE_setpoint", "IAE set point"],
+  ["IAE_load", "IAE load"],
+  ["Mt", "Mt, peak of |T|"],
+  ["TV_setpoint", "TV set point"],
+  ["TV_load", "TV load"],
+  ["overshoot", "Overshoot %"],
+  ["noise_gain", "Noise gain"],
 ];
 
-class Tuning extends Instrument {
+export class Tuning extends Instrument {
   constructor(root) {
     super(root, {
       sliders: [{ name: "tau_c", symbol: "τ<sub>c</sub>", label: "Closed-loop time constant tau_c" }],
-      views: [["responses", "Responses"], ["tradeoff", "Trade-off"]],
+      views: [
+        ["responses", "Responses"],
+        ["tradeoff", "Trade-off"],
+      ],
       figures: FIGURES,
       hint: "Keys: arrows, Home, End move τc · 1, 2, … presets · space what if · L or Esc back",
     });
     const wanted = document.createElement("label");
     wanted.title = "Sets tau_c to the smallest with this Ms, exactly";
     wanted.innerHTML = `Smallest τ<sub>c</sub> with Ms ≤ <input class="ms" type="number" min="1.05" max="10" step="0.05" placeholder="1.6" aria-label="Smallest tau_c with Ms at most">`;
-    wanted.lastChild.addEventListener("change", (event) => event.target.value && this.ask({ Ms: Number(event.target.value) }));
+    wanted.lastChild.addEventListener(
+      "change",
+      (event) => event.target.value && this.ask({ Ms: Number(event.target.value) }),
+    );
     root.querySelector(".extras").append(wanted);
   }
 
@@ -33,12 +54,16 @@ class Tuning extends Instrument {
     if (this.table?.id === table.id) return;
     this.table = table;
     const at = table.blocks.metrics;
-    table.columns = Object.fromEntries(table.metrics.map((name, c) => [name, Array.from({ length: at.rows }, (_, r) => at.values[r * at.columns + c])]));
+    table.columns = Object.fromEntries(
+      table.metrics.map((name, c) => [name, Array.from({ length: at.rows }, (_, r) => at.values[r * at.columns + c])]),
+    );
     this.slider.range(table);
     this.slider.hatch(table.unstable);
-    this.root.querySelector(".presets").replaceChildren(
-      ...table.presets.map(([name], i) => button(`${i + 1} ${name}`, `Key ${i + 1}`, () => this.preset(i + 1))),
-    );
+    this.root
+      .querySelector(".presets")
+      .replaceChildren(
+        ...table.presets.map(([name], i) => button(`${i + 1} ${name}`, `Key ${i + 1}`, () => this.preset(i + 1))),
+      );
     this.rebuild(table.t.at(-1));
   }
 
@@ -71,16 +96,37 @@ class Tuning extends Instrument {
     const tau_c = this.slider.tau_c;
     if (exact && exact.table === table.id && Math.abs(tau_c / exact.tau_c - 1) < 1e-9) {
       const row = (name) => mix(exact.blocks[name], { first: 0, weights: [1] });
-      return { tau_c, exact: true, stable: exact.stable, y: row("y"), u: row("u"), re: row("re"), im: row("im"),
-        settings: exact.settings, metrics: numbers(exact.metrics) };
+      return {
+        tau_c,
+        exact: true,
+        stable: exact.stable,
+        y: row("y"),
+        u: row("u"),
+        re: row("re"),
+        im: row("im"),
+        settings: exact.settings,
+        metrics: numbers(exact.metrics),
+      };
     }
-    const x = Math.log(tau_c), at = stencil(x, table.log_tau_c, table.breaks);
+    const x = Math.log(tau_c),
+      at = stencil(x, table.log_tau_c, table.breaks);
     const read = (name) => mix(table.blocks[name], at);
     const stable = !table.unstable.some(([from, to]) => tau_c >= from && tau_c <= to);
-    const metrics = Object.fromEntries(table.metrics.map((name) => [name, stable ? between(table.columns[name], x, table.log_tau_c) : NaN]));
+    const metrics = Object.fromEntries(
+      table.metrics.map((name) => [name, stable ? between(table.columns[name], x, table.log_tau_c) : NaN]),
+    );
     const values = read("settings");
-    return { tau_c, exact: false, stable, y: read("y"), u: read("u"), re: read("re"), im: read("im"),
-      settings: Object.fromEntries(table.settings.map((name, i) => [name, values[i]])), metrics };
+    return {
+      tau_c,
+      exact: false,
+      stable,
+      y: read("y"),
+      u: read("u"),
+      re: read("re"),
+      im: read("im"),
+      settings: Object.fromEntries(table.settings.map((name, i) => [name, values[i]])),
+      metrics,
+    };
   }
 
   figures({ exact, stable, settings, metrics }) {
@@ -94,7 +140,9 @@ class Tuning extends Instrument {
 
   words({ tau_c, stable, metrics: m }) {
     if (!stable) return `tau_c ${text(tau_c)}: the loop is not stable`;
-    return `tau_c ${text(tau_c)}: Ms ${text(m.Ms)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
-      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_load)}, overshoot ${text(100 * m.overshoot, 3)} percent`;
+    return (
+      `tau_c ${text(tau_c)}: Ms ${text(m.Ms)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
+      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_load)}, overshoot ${text(100 * m.overshoot, 3)} percent`
+    );
   }
 }

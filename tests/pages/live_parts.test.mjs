@@ -1,0 +1,74 @@
+// The pure parts of the live instruments, against numbers that test_live_parts.py writes to the file SIMC_CASES.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+
+import { marginsOf } from "../../pages/common/live/cascade/loops.js";
+import { nearest, round, text } from "../../pages/common/live/kit/format.js";
+import { logTicks, square } from "../../pages/common/live/kit/panel.js";
+import { between, mix, sensitivities, stencil, unpack } from "../../pages/common/live/kit/table.js";
+
+const cases = JSON.parse(readFileSync(process.env.SIMC_CASES, "utf-8"));
+const close = (ours, theirs, rel, words) =>
+  assert.ok(Math.abs(ours - theirs) <= rel * Math.max(1e-12, Math.abs(theirs)), `${words}: ${ours}, not ${theirs}`);
+
+test("a curve between rows is the polynomial through the rows, never across a kink", () => {
+  for (const { nodes, breaks, x, first, values, wanted } of cases.stencils) {
+    const found = stencil(x, nodes, breaks);
+    assert.equal(found.first, first);
+    const block = { columns: 1, values };
+    close(mix(block, found)[0], wanted, 1e-9, `at ${x}`);
+  }
+});
+
+test("a figure between rows keeps what is infinite", () => {
+  assert.equal(between([1, 3], 0.25, [0, 1]), 1.5);
+  assert.equal(between([Infinity, Infinity], 0.25, [0, 1]), Infinity);
+  assert.equal(between([2, Infinity], 0, [0, 1]), 2);
+});
+
+test("tables are unpacked to what was packed", () => {
+  const message = unpack(Uint8Array.from(Buffer.from(cases.packed.base64, "base64")));
+  assert.equal(message.kind, "table");
+  assert.deepEqual(Array.from(message.blocks.y.values), cases.packed.y.flat());
+  assert.deepEqual([message.blocks.y.rows, message.blocks.y.columns], [2, 3]);
+});
+
+test("margins of both loops of a cascade", () => {
+  for (const { omega, re, im, margins } of cases.loops) {
+    const found = marginsOf(omega, { x: re, y: im });
+    for (const [name, value] of Object.entries(margins)) close(found[name], value, 2e-3, name);
+  }
+});
+
+test("|S| and |T|", () => {
+  for (const { re, im, S, T } of cases.loops) {
+    const found = sensitivities(re, im);
+    S.forEach((value, i) => {
+      close(found.S[i], value, 1e-12, "S");
+      close(found.T[i], T[i], 1e-12, "T");
+    });
+  }
+});
+
+test("numbers have four digits", () => {
+  for (const [value, digits, wanted] of cases.numbers) assert.equal(text(value, digits), wanted);
+  assert.equal(text(Infinity), "∞");
+  assert.equal(text(NaN), "–");
+});
+
+test("scales: round limits hold what they are given; a decade has 1 to 9; the nearest point is found", () => {
+  for (const [low, high] of cases.ranges) {
+    const [from, to] = round(low, high);
+    assert.ok(from <= low + 1e-9 * (high - low) && to >= high - 1e-9 * (high - low), `${low} to ${high}`);
+    assert.ok(to - from <= 1.5 * (high - low), `${low} to ${high}: ${from} to ${to}`);
+  }
+  assert.deepEqual(
+    logTicks(12.6, 1500),
+    [20, 30, 40, 50, 60, 70, 80, 90, 100, 200, 300, 400, 500, 600, 700, 800, 900, 1000],
+  );
+  assert.equal(nearest([1, 2, 4, 8], 5.9), 2);
+  assert.equal(nearest([1, 2, 4, 8], 6.1), 3);
+  const { x, y } = square({ bbox: { width: 200, height: 100 } }, [0, 1], [0, 1]);
+  close((x[1] - x[0]) / 200, (y[1] - y[0]) / 100, 1e-12, "one unit is as long on both axes");
+});
