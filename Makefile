@@ -6,7 +6,7 @@ PORT ?= 8501
 HOST ?= 127.0.0.1
 UV := uv==0.13.9
 
-.PHONY: run test lint bench bench-ui screenshots lock licences clean
+.PHONY: run test lint doctest docs bench bench-ui screenshots lock licences clean
 
 run: $(VENV)/run.stamp
 	@echo "SIMC: http://localhost:$(PORT)"
@@ -16,7 +16,7 @@ run: $(VENV)/run.stamp
 
 # Browser tests last: they are the slowest, and the others say more exactly what broke.
 test: $(VENV)/dev.stamp lint chromium nginx systemd-analyze node
-	$(BIN)/python -m pytest tests --ignore=tests/browser -n auto
+	$(BIN)/python -m pytest tests simc_core --doctest-modules --ignore=tests/browser -n auto
 	$(BIN)/python -m pytest tests/browser
 
 lint: $(VENV)/dev.stamp node_modules/.stamp
@@ -24,6 +24,14 @@ lint: $(VENV)/dev.stamp node_modules/.stamp
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports --no-cache
 	node_modules/.bin/biome check
+
+doctest: $(VENV)/dev.stamp
+	$(BIN)/python -m pytest --doctest-modules simc_core -q
+
+# In an environment of its own: what builds the pages is neither needed to run the app nor to test it.
+docs: $(VENV)/docs.stamp
+	$(VENV)/docs/bin/sphinx-build -q -W -b html docs docs/_build
+	@echo "docs/_build/index.html"
 
 bench: $(VENV)/dev.stamp
 	$(BIN)/python -m benchmarks
@@ -42,6 +50,7 @@ lock: $(VENV)/bin/python
 	$(BIN)/python -m pip install --quiet $(UV)
 	$(COMPILE) requirements.txt -o requirements.lock
 	$(COMPILE) -c requirements.lock requirements.txt --group pyproject.toml:dev -o requirements-dev.lock
+	$(COMPILE) -c requirements.lock numpy scipy --group pyproject.toml:docs -o requirements-docs.lock
 COMPILE = $(BIN)/uv pip compile --quiet --no-config --no-header --universal --python-version 3.11 --generate-hashes \
 	--default-index https://pypi.org/simple
 
@@ -49,7 +58,7 @@ licences: $(VENV)/run.stamp
 	$(BIN)/python -m deploy.licences
 
 clean:
-	rm -rf $(VENV) node_modules .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) node_modules .pytest_cache .ruff_cache .hypothesis docs/_build
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV) || { echo "No venv here: apt-get install python3-venv"; exit 1; }
@@ -64,6 +73,11 @@ $(VENV)/dev.stamp: requirements-dev.lock $(VENV)/run.stamp
 
 node_modules/.stamp: package-lock.json | npm
 	npm ci --silent --no-audit --no-fund
+	touch $@
+
+$(VENV)/docs.stamp: requirements-docs.lock | $(VENV)/bin/python
+	$(BIN)/python -m venv $(VENV)/docs
+	$(VENV)/docs/bin/python -m pip install --quiet --require-hashes -r requirements-docs.lock
 	touch $@
 
 # Programs of Debian that tests need, installed where that is allowed: as root, or by sudo that asks nothing.
