@@ -1,4 +1,4 @@
-"""Sphinx: the API reference from the docstrings of simc_core. `make docs` writes docs/_build; nothing is loaded later."""
+"""Sphinx: the API reference from the docstrings of simc_core, made by `make docs`; what it writes needs no network."""
 
 import sys
 import tomllib
