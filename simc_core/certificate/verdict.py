@@ -46,7 +46,31 @@ class Stability:
 
 @singledispatch
 def stability(loop: Loop) -> Stability:
-    """Verdict on a single loop. Raises InvalidParameter where it is ill-posed, L(inf) = -1 without dead time."""
+    """Whether a loop is stable, by the argument principle, with its dead time exact.
+
+    Parameters
+    ----------
+    loop : Loop, CascadeLoop or NestedLoops
+        Of nested loops, all of them closed.
+
+    Returns
+    -------
+    Stability or NestedStability
+        The verdict, and the number of closed-loop poles in the right half plane.
+
+    Raises
+    ------
+    InvalidParameter
+        The loop is ill-posed: L(inf) = -1 without dead time.
+
+    Examples
+    --------
+    e^{-s}/s under a gain is stable up to pi/2:
+
+    >>> from simc_core import Loop, Plant, SeriesPid, stability
+    >>> [stability(Loop(Plant(1, 1, integrators=1), SeriesPid(Kc, float("inf")))).verdict for Kc in (1.57, 1.58)]
+    ['stable', 'unstable']
+    """
     return remembered(loop)
 
 

@@ -50,9 +50,30 @@ class Performance:
 
 @singledispatch
 def performance(loop: Loop) -> Performance:
-    """Metrics of both unit steps, see the module docstring.
+    """IAE, overshoot, settling time and the like, of unit steps of set point and load; the dead time is exact.
 
-    Raises NotStable where the loop is not stable, and where an offset remains so that the integrals diverge.
+    Parameters
+    ----------
+    loop : Loop, CascadeLoop or NestedLoops
+        Of nested loops, y is the outermost output.
+
+    Returns
+    -------
+    Performance or NestedPerformance
+        Times in the user's unit.
+
+    Raises
+    ------
+    NotStable
+        The loop is not stable, or an offset remains, so that the integrals diverge.
+
+    Examples
+    --------
+    A load response that does not change its sign has IAE = tau_I/Kc [SK03]; here 8/4:
+
+    >>> from simc_core import Loop, Plant, SeriesPid, performance
+    >>> round(performance(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8))).disturbance.IAE, 6)
+    2.0
     """
     verdict = stability(loop)
     if verdict.verdict != "stable":

@@ -65,9 +65,31 @@ class Token(NamedTuple):
 
 
 def parse_plant(text: str) -> Plant:
-    """The plant that `text` describes, see the module docstring.
+    """The plant that `text` describes; the module docstring says what may be written.
 
-    Raises ParseError with the position of the fault, InvalidParameter where the plant itself is out of bounds.
+    Parameters
+    ----------
+    text : str
+        A transfer function in s, such as exp(-3s)/((6s+1)(4s+1)(2s+1)).
+
+    Returns
+    -------
+    Plant
+        With the dead time exact.
+
+    Raises
+    ------
+    ParseError
+        The text is not a transfer function; the error holds the position of the fault.
+    InvalidParameter
+        The plant itself is out of bounds.
+
+    Examples
+    --------
+    >>> from simc_core import parse_plant
+    >>> plant = parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))")
+    >>> plant.theta, plant.lags
+    (3.0, (6.0, 4.0, 2.0))
     """
     if not isinstance(text, str):
         raise ParseError(f"a transfer function must be text, got {type(text).__name__}")

@@ -44,13 +44,46 @@ SAME = 1e-9  # relative; two delays this close are one
 
 
 def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003") -> Reduction:
-    """Reduce `plant` to a model of `order` 1 (PI) or 2 (PID); h: sampling period of a digital controller.
+    """Reduce `plant` to a first- or second-order model with effective dead time.
 
-    rules: "2003" (T1-T3) or "1998" (small zeros subtracted from theta) for positive numerator time constants.
     Of several self-consistent delays > 0 the one is taken whose SIMC loop round the ORIGINAL plant has the smallest
     load error tau_I/Kc at Ms = 1.6; where none has that Ms, the smallest with Ms <= 2 at tau_c = theta. All others
     are in `alternatives` and `candidates`.
-    Raises NotReducible for plants without a SIMC model, InvalidParameter for order, h or rules out of bounds.
+
+    Parameters
+    ----------
+    plant : Plant
+        The plant to be reduced.
+    order : int
+        1 for a PI controller, 2 for a PID.
+    h : float
+        Sampling period of a digital controller, in the user's time unit; 0 for none. Half of it is added to theta.
+    rules : str
+        For positive numerator time constants: "2003" (T1-T3), or "1998" (small ones are subtracted from theta).
+
+    Returns
+    -------
+    Reduction
+        The model, every step of the way, and the other delays that are possible.
+
+    Raises
+    ------
+    NotReducible
+        The plant has no SIMC model.
+    InvalidParameter
+        order, h or rules out of bounds.
+
+    References
+    ----------
+    [SK03 eq. 10-11]; [SK98] for the rules of 1998.
+
+    Examples
+    --------
+    The first example of [V06]:
+
+    >>> from simc_core import half_rule, parse_plant
+    >>> half_rule(parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))")).model
+    FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
     """
     order = checks.whole("order", order, 1, 2)
     h = checks.optional_time("h", h)

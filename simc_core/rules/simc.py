@@ -35,10 +35,38 @@ SAME_TAU_C = 1e-6  # relative; a tau_c that came through a link's decimal text s
 
 
 def simc(model: Model, tau_c: float | None = None) -> SeriesPid | IdealPid | IController:
-    """SIMC settings for `model`, see the module docstring. tau_c=None means tau_c = theta.
+    """SIMC settings of `model`; the module docstring has the table.
 
-    Raises InvalidParameter: tau_c <= 0 or not above -theta, tau_c=None for a model without dead time,
-    and where the rule of the model ends (a theta >= 0.5, undamped oscillation).
+    Parameters
+    ----------
+    model : Model
+        Reduced model, as `half_rule` makes it.
+    tau_c : float, optional
+        Closed-loop time constant, > 0, in the user's time unit. None: theta, the tight choice.
+
+    Returns
+    -------
+    SeriesPid, IdealPid or IController
+        Ideal for an oscillating model, integral action only for pure dead time, series for all others.
+
+    Raises
+    ------
+    InvalidParameter
+        tau_c <= 0 or not above -theta; tau_c=None for a model without dead time; and where the rule of the model ends
+        (a theta >= 0.5, undamped oscillation).
+
+    References
+    ----------
+    [SK03 Table 1], [SK98 eq. 23-24] for unstable models, [V06].
+
+    Examples
+    --------
+    The first example of [V06] prints Kc = 0.57 and tau_I = 8:
+
+    >>> from simc_core import FirstOrderDelay, simc
+    >>> pi = simc(FirstOrderDelay(k=1, theta=7, tau1=8))
+    >>> round(pi.Kc, 2), pi.tau_I
+    (0.57, 8.0)
     """
     if not isinstance(model, Model):
         raise InvalidParameter(f"model must be a reduced model, as half_rule makes it, got {type(model).__name__}")
@@ -59,11 +87,30 @@ def simc(model: Model, tau_c: float | None = None) -> SeriesPid | IdealPid | ICo
 
 
 def tau_c_presets(model: Model) -> dict[str, float]:
-    """Named choices of tau_c: tight, tau_c = theta [SK03]; the others by Arbogast, Cooper and Rice [V06 eq. 7].
+    """Named choices of tau_c: tight, aggressive, moderate, conservative.
 
-    aggressive max(0.1 tau1, 0.8 theta), moderate max(tau1, 8 theta), conservative max(10 tau1, 80 theta).
-    tau1 counts as 0 for integrating models; choices that would be tau_c = 0 are left out, and an unstable
-    model has the tight one only.
+    tight is theta [SK03]. The others are those of Arbogast, Cooper and Rice: aggressive max(0.1 tau1, 0.8 theta),
+    moderate max(tau1, 8 theta), conservative max(10 tau1, 80 theta) [V06 eq. 7].
+
+    Parameters
+    ----------
+    model : Model
+        Reduced model. tau1 counts as 0 for integrating models.
+
+    Returns
+    -------
+    dict of str to float
+        In the user's time unit. Choices that would be 0 are left out; an unstable model has the tight one only.
+
+    References
+    ----------
+    [SK03], [V06 eq. 7]. What [V06] prints there is a misprint, see docs/theory.md.
+
+    Examples
+    --------
+    >>> from simc_core import FirstOrderDelay, tau_c_presets
+    >>> tau_c_presets(FirstOrderDelay(k=1, theta=1, tau1=20))
+    {'tight': 1.0, 'aggressive': 2.0, 'moderate': 20.0, 'conservative': 200.0}
     """
     if isinstance(model, UnstableDelay):
         return {"tight": model.theta} if model.theta else {}
