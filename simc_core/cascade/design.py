@@ -63,9 +63,39 @@ def simc_cascade(
     Ms_outer: float | None = None,
     b: float = 1.0,
 ) -> CascadeDesign:
-    """SIMC cascade, see the module docstring. None for tau_c and Ms: tau_c = theta.
+    """SIMC settings of both loops of a cascade; the module docstring has the method.
 
-    Raises InvalidParameter for an unstable block, tau_c together with Ms, an Ms that cannot be met; NotReducible.
+    Parameters
+    ----------
+    primary, secondary : Plant
+        Ga, the block of the outer loop, and Gb, the block of the inner one.
+    tau_c_inner, tau_c_outer : float, optional
+        Closed-loop time constants > 0, in the user's time unit. None, and no Ms: theta of that loop.
+    inner, outer : str
+        "PI" or "PID".
+    Ms_inner, Ms_outer : float, optional
+        Peaks that the loops are to have, in place of tau_c.
+    b : float
+        Set-point weight.
+
+    Returns
+    -------
+    CascadeDesign
+        The loop, and how it came about.
+
+    Raises
+    ------
+    InvalidParameter
+        An unstable block, tau_c together with Ms, or an Ms that cannot be met.
+    NotReducible
+        A block has no SIMC model.
+
+    Examples
+    --------
+    >>> from simc_core import Plant, simc_cascade
+    >>> design = simc_cascade(Plant(2, 2, (5,)), Plant(1, 1, (2, 3)), inner="PID")
+    >>> design.loop.inner.Kc, design.loop.inner.tau_I, design.loop.inner.tau_D
+    (1.5, 3.0, 2.0)
     """
     for name, block in (("primary", primary), ("secondary", secondary)):
         if block.unstable_poles:
@@ -102,10 +132,36 @@ def synthesis_cascade(
     lambda_outer: float | None = None,
     b: float = 1.0,
 ) -> CascadeDesign:
-    """Direct synthesis of both loops [PSB]. A lambda that is given goes before the Ms of that loop.
+    """Direct synthesis of both loops of a cascade, for given peaks Ms.
 
-    N: tau_F = lambda/N of a PID. N_outer=None: tau_F = eta_1 of the inner loop, which cancels its zero.
-    Raises InvalidParameter where no lambda gives a stable loop with the Ms asked for, and for bounds.
+    Parameters
+    ----------
+    primary, secondary : Plant
+        Ga, the block of the outer loop, and Gb, the block of the inner one.
+    Ms_inner, Ms_outer : float
+        Peaks that the loops are to have.
+    inner, outer : str
+        "PI" or "PID".
+    N_inner, N_outer : float or None
+        tau_F = lambda/N of a PID. N_outer=None: tau_F = eta_1 of the inner loop, which cancels its zero.
+    lambda_inner, lambda_outer : float, optional
+        In the user's time unit. One that is given goes before the Ms of that loop.
+    b : float
+        Set-point weight.
+
+    Returns
+    -------
+    CascadeDesign
+        The loop, and how it came about.
+
+    Raises
+    ------
+    InvalidParameter
+        No lambda gives a stable loop with the Ms asked for, or a number is out of bounds.
+
+    References
+    ----------
+    [PSB].
     """
 
     def inside(lambda_: float) -> NestedLoops:

@@ -31,7 +31,7 @@ ILL_POSED = 1e-12  # |1 + L(inf)| without dead time
 
 @dataclass(frozen=True, slots=True)
 class ClosedLoopPole:
-    """s: the pole, Im s >= 0 (its conjugate is implied). zeta = -Re s/|s|, omega_n = |s|; zeta 0 at the origin.
+    """s: the pole, Im s >= 0 (its conjugate is implied). zeta = -Re s/abs(s), omega_n = abs(s); zeta 0 at the origin.
 
     cancelled: a zero of the controller hides it from the set-point response; a load disturbance excites it.
     """
@@ -43,10 +43,22 @@ class ClosedLoopPole:
 
 
 def dominant_poles(loop: Loop, most: int = 8) -> tuple[ClosedLoopPole, ...]:
-    """At most `most` rightmost poles, from right to left, real ones and one of each complex pair.
+    """The rightmost closed-loop poles, from right to left: real ones, and one of each complex pair.
 
-    For display and cross-checks; `stability` does not rely on it. A loop without dynamics has none,
-    nor has an improper one.
+    For display and cross-checks; `stability` does not rely on it. A loop without dynamics has none, nor has an
+    improper one.
+
+    Parameters
+    ----------
+    loop : Loop
+        A single loop.
+    most : int
+        How many at most.
+
+    Returns
+    -------
+    tuple of ClosedLoopPole
+        In rad per time unit.
     """
     L = loop.L
     if L.relative_degree < 0:

@@ -36,7 +36,7 @@ class Stability:
     """verdict, and the number of closed-loop poles with positive real part (math.inf where they are countless).
 
     marginal: poles on the imaginary axis within rounding, none to the right of it.
-    neutral: |L(inf)| of the part with dead time; 0 for the usual, retarded loop.
+    neutral: abs(L(inf)) of the part with dead time; 0 for the usual, retarded loop.
     """
 
     verdict: Verdict
@@ -83,17 +83,44 @@ def remembered(loop: Loop) -> Stability:
 def stability_many(loops: Sequence[Loop]) -> list[Stability]:
     """Verdicts on single loops, worked on together: cheapest where all have the same plant and form of controller.
 
-    Raises InvalidParameter where `stability` does for one of them.
+    Parameters
+    ----------
+    loops : sequence of Loop, n of them
+        The loops.
+
+    Returns
+    -------
+    list of Stability, n of them
+        In the order of `loops`.
+
+    Raises
+    ------
+    InvalidParameter
+        Where `stability` does for one of them.
     """
     return _verdicts([[loop.L] for loop in loops])
 
 
 def count_unstable(terms: Sequence[Factored]) -> Stability:
-    """Verdict on 1 + sum of `terms` = 0, each with its own dead time.
+    """Verdict on 1 + sum of `terms` = 0, each term with its own dead time.
 
     Factors of the denominators that are equal in several terms are the same block, as in the cascade
-    1 + Lb + Lb Ca Ga: Lb's poles count once. Nothing is cancelled.
-    Raises InvalidParameter: ill-posed loops, and those that would cost more than winding.MOST_SEGMENTS.
+    1 + Lb + Lb Ca Ga: the poles of Lb count once. Nothing is cancelled.
+
+    Parameters
+    ----------
+    terms : sequence of Factored
+        What is fed back.
+
+    Returns
+    -------
+    Stability
+        The verdict, and the number of poles in the right half plane.
+
+    Raises
+    ------
+    InvalidParameter
+        The loop is ill-posed, or would cost more than winding.MOST_SEGMENTS.
     """
     return _verdicts([terms])[0]
 

@@ -25,7 +25,7 @@ class StepMetrics:
     """For a unit step. Times in the user's unit, from the step on.
 
     overshoot: of a set-point step, beyond 1 as a fraction; of a load step, beyond 0 on the other side as a fraction of
-    the peak.   peak, peak_time: largest y of a set-point step, largest |y| of a load step (with its sign).
+    the peak.   peak, peak_time: largest y of a set-point step, largest abs(y) of a load step (with its sign).
     rise_time: 10 % to 90 %, nan for a load step.   settling_time: within 2 % of the step, of the peak for a load step.
     """
 

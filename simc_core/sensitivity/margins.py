@@ -50,7 +50,7 @@ NOT_STABLE = Margins(*[math.nan] * 10, stable=False)
 
 @singledispatch
 def margins(loop: Loop) -> Margins:
-    """Margins of a loop, with its dead time exact; all nan where the loop is not stable.
+    """Margins of a loop, with its dead time exact; all nan where it, or a loop inside it, is not stable.
 
     Parameters
     ----------
@@ -80,19 +80,56 @@ def margins(loop: Loop) -> Margins:
 
 @singledispatch
 def crossings(loop: Loop) -> Crossings:
-    """Every crossing and peak, also of a loop that is not stable: for drawing."""
+    """Every crossing and peak of L, also of a loop that is not stable: for drawing.
+
+    Parameters
+    ----------
+    loop : Loop or NestedLoops
+        Of nested loops, the outermost one with the others closed.
+
+    Returns
+    -------
+    Crossings
+        Frequencies in rad per time unit.
+    """
     return search(FactoredResponse(loop.L))
 
 
 def margins_of(response: Response) -> Margins:
-    """Margins of any loop transfer function that is known to be stable when closed."""
+    """Margins of any loop transfer function that is known to be stable when closed.
+
+    Parameters
+    ----------
+    response : Response
+        L on the imaginary axis. Whether the loop is stable is not tested here.
+
+    Returns
+    -------
+    Margins
+        As of `margins`.
+    """
     return _margins(response, search(response))
 
 
 def margins_many(loops: Sequence[Loop], verdicts: Sequence[Stability] | None = None) -> list[Margins]:
     """Margins of single loops, worked on together: cheapest where all have the same plant and form of controller.
 
-    verdicts: what stability_many says of `loops`, where that is known.
+    Parameters
+    ----------
+    loops : sequence of Loop, n of them
+        The loops.
+    verdicts : sequence of Stability, n of them, optional
+        What `stability_many` says of `loops`, where that is known.
+
+    Returns
+    -------
+    list of Margins, n of them
+        In the order of `loops`; all nan where a loop is not stable.
+
+    Raises
+    ------
+    InvalidParameter
+        Where `stability` does for one of them.
     """
     verdicts = stability_many(loops) if verdicts is None else verdicts
     stable = [i for i, verdict in enumerate(verdicts) if verdict.verdict == "stable"]

@@ -18,9 +18,33 @@ from simc_core.simulation.superposition import doubled, held, superposed
 
 @singledispatch
 def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
-    """y and u for the scenario, exact dead time, from rest. Unstable loops are simulated as well.
+    """y and u for a scenario, from rest, with the dead time exact. Unstable loops are simulated as well.
 
-    Raises InvalidParameter: see march.march and saturation.actuated.
+    Parameters
+    ----------
+    loop : Loop, CascadeLoop or NestedLoops
+        The loop.
+    scenario : Scenario, optional
+        Steps, horizon and actuator. None: `Scenario()`, unit steps of set point and load.
+
+    Returns
+    -------
+    TimeResponse or NestedResponse
+        Arrays of shape (n,); times in the user's unit.
+
+    Raises
+    ------
+    InvalidParameter
+        The loop is ill-posed, or cannot be simulated within the bounds of time and memory.
+
+    Examples
+    --------
+    Nothing happens before the dead time 1; then y rises as (Kc/8) (t - 1) = (t - 1)/2:
+
+    >>> from simc_core import Loop, Plant, Scenario, SeriesPid, simulate
+    >>> found = simulate(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)), Scenario(disturbance=0, t=[0.5, 1.5]))
+    >>> [abs(round(y, 9)) for y in found.y.tolist()]
+    [0.0, 0.25]
     """
     scenario = scenario or Scenario()
     begins, t_end = times(loop, scenario)

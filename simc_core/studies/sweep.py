@@ -73,10 +73,36 @@ def sweep(
     filter_ratio: float = 0.0,
     disturbance_time: float = 0.0,
 ) -> Sweep:
-    """SIMC tunings of `model` for all tau_c > 0 (n,), in the loop round `plant`; see Sweep.
+    """SIMC tunings of `model` for many tau_c at once, each in the loop round `plant`.
 
-    t, omega: increasing instants >= 0 and frequencies > 0.   b: set-point weight.   filter_ratio: tau_F/tau_D.
-    disturbance_time: when the load step begins.   Raises InvalidParameter for bounds, as simc and march do.
+    Parameters
+    ----------
+    plant : Plant
+        The plant, as it is.
+    model : Model
+        The reduced model that is tuned.
+    tau_c : array_like, shape (n,)
+        Closed-loop time constants > 0, in the user's time unit.
+    t : array_like, shape (m,)
+        Increasing instants >= 0, in the user's time unit.
+    omega : array_like, shape (p,)
+        Frequencies > 0, in rad per time unit.
+    b : float
+        Set-point weight.
+    filter_ratio : float
+        tau_F/tau_D.
+    disturbance_time : float
+        When the load step begins.
+
+    Returns
+    -------
+    Sweep
+        Margins and metrics of shape (n,), responses (n, m), L (n, p).
+
+    Raises
+    ------
+    InvalidParameter
+        Where `simc` does, and where `simulate` does for one of the loops.
     """
     tau_c, t, omega = _tau_c(tau_c), instants(t), at_frequencies(omega)
     controllers = tuple(dressed(simc(model, each), b, filter_ratio) for each in tau_c.tolist())
