@@ -50,7 +50,7 @@ lock: $(VENV)/bin/python
 	$(BIN)/python -m pip install --quiet $(UV)
 	$(COMPILE) requirements.txt -o requirements.lock
 	$(COMPILE) -c requirements.lock requirements.txt --group pyproject.toml:dev -o requirements-dev.lock
-	$(COMPILE) -c requirements.lock numpy scipy --group pyproject.toml:docs -o requirements-docs.lock
+	printf 'numpy\nscipy\n' | $(COMPILE) -c requirements.lock - --group pyproject.toml:docs -o requirements-docs.lock
 COMPILE = $(BIN)/uv pip compile --quiet --no-config --no-header --universal --python-version 3.11 --generate-hashes \
 	--default-index https://pypi.org/simple
 
