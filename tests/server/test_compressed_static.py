@@ -11,6 +11,7 @@ import streamlit
 
 from server.compressed_static import CompressedStatic, best_coding
 from tests.browser.tools import Server
+from tests.server.client import Client
 
 STATIC = Path(streamlit.__file__).parent / "static" / "static"
 GZIP = {"Accept-Encoding": "gzip, deflate"}  # over plain http
@@ -68,6 +69,27 @@ def test_what_is_no_file_stays_the_answer_of_streamlit(get):
     status, headers, body = get("/static/js/nothing.js", GZIP)
     assert (status, headers["Cache-Control"], headers["Content-Encoding"]) == (200, "no-cache", None)
     assert b"<title>Streamlit</title>" in body
+
+
+def test_below_a_path_of_another_site_all_is_the_same():
+    server = Server(below="/simc")
+    try:
+        connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+        [path] = STATIC.glob("js/react-dom.*.js")
+        connection.request("GET", f"/simc/static/js/{path.name}", headers=GZIP)
+        answer = connection.getresponse()
+        assert gzip.decompress(answer.read()) == path.read_bytes()
+        connection.close()
+        asyncio.run(asyncio.wait_for(session(server.url), 60))
+    finally:
+        server.stop()
+
+
+async def session(url: str) -> None:
+    client = Client(url, {"Origin": url.removesuffix("/simc")})
+    await client.open()
+    await client.run("tuning")
+    await client.close()
 
 
 class Files:
