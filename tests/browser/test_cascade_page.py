@@ -20,7 +20,7 @@ def peaks(page: Page) -> list[float]:
 
 
 def choose_pair(page: Page, title: str) -> None:
-    page.get_by_role("combobox").first.click()
+    page.get_by_role("combobox", name="From the literature").click()
     page.get_by_role("option", name=title).click()
     idle(page)
 
@@ -46,7 +46,7 @@ def test_from_a_pair_of_the_paper_to_a_link_that_opens_the_same_cascade(server, 
         tab(page, name)
         assert page.locator(TRACEBACK).count() == 0
     tab(page, "Figures")
-    link = page.get_by_test_id("stSidebar").locator("code").inner_text()
+    link = page.locator(".st-key-address_text pre").inner_text()
     again = open_page(re.sub(r"^http://[^/]+", fresh_server(), link))
     tab(again, "Figures")
     assert again.locator(".strip").inner_text() == page.locator(".strip").inner_text()

@@ -52,7 +52,7 @@ def test_from_a_typed_plant_to_a_link_that_opens_the_same_design(server, fresh_s
     idle(page)
     tau_c = re.search("tau_c=([^&]+)", page.url).group(1)
     expect(page.get_by_test_id("stMain")).to_contain_text("Ms")
-    link = page.get_by_test_id("stSidebar").locator("code").inner_text()
+    link = page.locator(".st-key-address_text pre").inner_text()
     again = open_page(re.sub(r"^http://[^/]+", fresh_server(), link))
     assert f"tau_c={tau_c}" in again.url
     assert (
@@ -155,6 +155,6 @@ def test_the_saved_project_holds_the_design_that_is_shown(server, open_page):
     with page.expect_download() as download:
         page.get_by_role("button", name="Save project").click()
     assert download.value.suggested_filename == "simc-project.json"
-    design, reason = load(Path(download.value.path()).read_bytes())
+    loops, reason = load(Path(download.value.path()).read_bytes())
     assert reason == ""
-    assert (design.plant, design.tuning.tau_c) == (Plant(2.0, 1.0, (5.0,)), 3.0)
+    assert (loops.design.plant, loops.design.tuning.tau_c) == (Plant(2.0, 1.0, (5.0,)), 3.0)

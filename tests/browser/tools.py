@@ -35,6 +35,7 @@ class Server:
     """A fresh `streamlit run` of a script, app.py unless told otherwise, on a port of 127.0.0.1, a free one if None.
 
     Settings are those of .streamlit/config.toml, as for everybody, but for `options` of the command line.
+    below: a path of the site, such as /simc, below which the app is.
     """
 
     def __init__(
@@ -44,13 +45,15 @@ class Server:
         options: tuple[str, ...] = (),
         environment: dict[str, str] | None = None,
         folder: Path = ROOT,
+        below: str = "",
     ):
         if port is None:
             with socket.socket() as free:
                 free.bind(("127.0.0.1", 0))
                 port = free.getsockname()[1]
         self.port = port
-        self.url = f"http://127.0.0.1:{port}"
+        self.url = f"http://127.0.0.1:{port}{below}"
+        options = (*options, f"--server.baseUrlPath={below}") if below else options
         command = [sys.executable, "-m", "streamlit", "run", str(script)]
         self.process = subprocess.Popen(
             [*command, f"--server.port={port}", *options],

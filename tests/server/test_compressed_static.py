@@ -5,14 +5,17 @@ import gzip
 import http.client
 from pathlib import Path
 
+import brotli
 import pytest
 import streamlit
 
-from server.compressed_static import CompressedStatic, takes_gzip
+from server.compressed_static import CompressedStatic, best_coding
 from tests.browser.tools import Server
+from tests.server.client import Client
 
 STATIC = Path(streamlit.__file__).parent / "static" / "static"
-GZIP = {"Accept-Encoding": "gzip, deflate, br"}
+GZIP = {"Accept-Encoding": "gzip, deflate"}  # over plain http
+BOTH = {"Accept-Encoding": "gzip, deflate, br, zstd"}
 
 
 @pytest.fixture(scope="module")
@@ -32,26 +35,27 @@ def get():
     server.stop()
 
 
+@pytest.mark.parametrize(("wish", "coding", "read"), [(GZIP, "gzip", gzip.decompress), (BOTH, "br", brotli.decompress)])
 @pytest.mark.parametrize("name", ["js/PlotlyChart.*.js", "js/react-dom.*.js", "css/index.*.css"])
-def test_the_browser_gets_the_file_compressed_and_may_keep_it(get, name):
+def test_the_browser_gets_the_file_compressed_and_may_keep_it(get, name, wish, coding, read):
     [path] = STATIC.glob(name)
     address = f"/static/{path.relative_to(STATIC)}"
-    status, headers, body = get(address, GZIP)
+    status, headers, body = get(address, wish)
     assert status == 200
-    assert gzip.decompress(body) == path.read_bytes()
+    assert read(body) == path.read_bytes()
     assert len(body) < 0.5 * path.stat().st_size
-    assert (headers["Content-Encoding"], headers["Content-Length"]) == ("gzip", str(len(body)))
+    assert (headers["Content-Encoding"], headers["Content-Length"]) == (coding, str(len(body)))
     assert "immutable" in headers["Cache-Control"]
     assert headers["Vary"] == "Accept-Encoding"
     assert headers.get_content_type() in ("text/javascript", "application/javascript", "text/css")
     assert headers["X-Content-Type-Options"] == "nosniff"
-    status, again, body = get(address, GZIP | {"If-None-Match": headers["ETag"]})
+    status, again, body = get(address, wish | {"If-None-Match": headers["ETag"]})
     assert (status, again["ETag"], body) == (304, headers["ETag"], b"")
 
 
 def test_whoever_takes_no_gzip_gets_the_file_as_it_is(get):
     [path] = STATIC.glob("js/react-dom.*.js")
-    for wish in ({}, {"Accept-Encoding": "identity"}, {"Accept-Encoding": "gzip;q=0, br"}):
+    for wish in ({}, {"Accept-Encoding": "identity"}, {"Accept-Encoding": "gzip;q=0, zstd"}):
         status, headers, body = get(f"/static/js/{path.name}", wish)
         assert (status, body, headers["Content-Encoding"]) == (200, path.read_bytes(), None)
         assert headers["Vary"] == "Accept-Encoding"
@@ -65,6 +69,27 @@ def test_what_is_no_file_stays_the_answer_of_streamlit(get):
     status, headers, body = get("/static/js/nothing.js", GZIP)
     assert (status, headers["Cache-Control"], headers["Content-Encoding"]) == (200, "no-cache", None)
     assert b"<title>Streamlit</title>" in body
+
+
+def test_below_a_path_of_another_site_all_is_the_same():
+    server = Server(below="/simc")
+    try:
+        connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+        [path] = STATIC.glob("js/react-dom.*.js")
+        connection.request("GET", f"/simc/static/js/{path.name}", headers=GZIP)
+        answer = connection.getresponse()
+        assert gzip.decompress(answer.read()) == path.read_bytes()
+        connection.close()
+        asyncio.run(asyncio.wait_for(session(server.url), 60))
+    finally:
+        server.stop()
+
+
+async def session(url: str) -> None:
+    client = Client(url, {"Origin": url.removesuffix("/simc")})
+    await client.open()
+    await client.run("tuning")
+    await client.close()
 
 
 class Files:
@@ -122,15 +147,16 @@ def test_what_was_asked_for_longest_ago_goes_first():
 @pytest.mark.parametrize(
     ("accepted", "right"),
     [
-        ("gzip", True),
-        ("br, GZIP", True),
-        ("gzip;q=0.5", True),
-        ("gzip; q=1.0", True),
-        ("gzip;q=0", False),
-        ("gzip;q=0.000", False),
-        ("x-gzip, br", False),
-        ("", False),
+        ("gzip", "gzip"),
+        ("gzip, deflate, br, zstd", "br"),
+        ("zstd, GZIP", "gzip"),
+        ("gzip;q=0.5", "gzip"),
+        ("gzip; q=1.0, br;q=0", "gzip"),
+        ("gzip;q=0", None),
+        ("gzip;q=0.000, br;q=0", None),
+        ("x-gzip, zstd", None),
+        ("", None),
     ],
 )
 def test_accept_encoding(accepted, right):  # RFC 9110, 12.5.3
-    assert takes_gzip(accepted) is right
+    assert best_coding(accepted) == right
