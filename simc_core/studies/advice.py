@@ -257,6 +257,7 @@ def in_words(change: dict[str, Any]) -> str:
         said.append("tau_c = " + ("theta" if change["tau_c"] is None else number(change["tau_c"], 4)))
     if "filter" in change:
         said.append(f"tau_F/tau_D = {number(change['filter'])}")
+    said += [f"{name} = {number(change[name], 4)}" for name in ("h", "r", "d", "Kc") if name in change]
     return "Take " + " with ".join(said)
 
 

@@ -18,16 +18,21 @@ def show(study: Study) -> None:
     st.html(STYLE)
     with st.container(key="guards", gap="xsmall"):
         for item in advice(study.tuned):
-            PLACES[item.level](words(item))
-            if item.change:
-                st.button(
-                    symbols(in_words(item.change)),
-                    key=f"remedy_{item.quantity}",
-                    type="tertiary",
-                    icon=":material/arrow_forward:",
-                    on_click=state.change,
-                    kwargs=item.change,
-                )
+            proposal(item)
+
+
+def proposal(item: Advice) -> None:
+    """One piece of advice; what it proposes is a button."""
+    PLACES[item.level](words(item))
+    if item.change:
+        st.button(
+            symbols(in_words(item.change)),
+            key=f"remedy_{item.quantity}",
+            type="tertiary",
+            icon=":material/arrow_forward:",
+            on_click=state.change,
+            kwargs=item.change,
+        )
 
 
 def words(item: Advice) -> str:
