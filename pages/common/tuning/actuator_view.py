@@ -92,7 +92,7 @@ def actuator_view(study: Study, actuator: Actuator) -> None:
 
 def guards_of(study: Study, actuator: Actuator) -> list[Advice]:
     """What must not be overlooked in the loop as built."""
-    sampled = sampling_not_in_tuning(study.tuned, actuator.h)
+    sampled = sampling_not_in_tuning(study.tuned, actuator.h) if study.tuned else None
     return [*out_of_reach(study.loop.plant, actuator.scenario), *([sampled] if sampled else [])]
 
 
