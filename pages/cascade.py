@@ -8,7 +8,7 @@ from pages.common.cascade import widgets as cascade_widgets
 from pages.common.cascade.diagram import diagram
 from pages.common.cascade.pairs import pairs_view
 from pages.common.cascade.panels import frequencies, panels
-from pages.common.cascade.readout import readout
+from pages.common.cascade.readout import readout, sentence
 from pages.common.cascade.settings import settings
 from pages.common.cascade.windup import windup_view
 from pages.common.parts.refusals import explain_refusal
@@ -20,6 +20,8 @@ from pages.common.studies.cascade import CascadeStudy, attempt
 def instrument(present: CascadeStudy) -> None:
     """Sliders, figures and panels that follow the hand."""
     live.cascade_instrument(present.cascade)
+    if present.sound:
+        st.caption(sentence(present))
 
 
 def figures(present: CascadeStudy) -> None:

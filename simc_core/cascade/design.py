@@ -112,8 +112,8 @@ def simc_cascade(
     notes = []
     if tau_ca < SEPARATE * tau_cb:
         notes.append(
-            f"tau_c_outer should be >= {SEPARATE:g} tau_c_inner = {SEPARATE * tau_cb:.4g} for the loops to separate, "
-            f"got {tau_ca:.4g}: slow the outer loop down, or speed the inner one up"
+            f"tau_c_outer is {tau_ca / tau_cb:.3g} times tau_c_inner, {SEPARATE:g} times is usual for the loops to "
+            f"separate: take tau_c_outer = {SEPARATE * tau_cb:.4g}"
         )
     loop = CascadeLoop(primary, secondary, Ca, Cb)
     return CascadeDesign(loop, Cb, Ca, tau_cb, tau_ca, models=(model, reduced), notes=(*notes, *_on_inner(loop)))

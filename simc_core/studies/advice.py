@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from simc_core.controllers.forms import Controller, IController
-from simc_core.errors import FormError
+from simc_core.errors import FormError, NotReducible
 from simc_core.notation import number
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
@@ -24,8 +24,9 @@ from simc_core.plants.plant import Plant
 from simc_core.plants.step_response import rise_time
 from simc_core.reduction.equal_peak import load_error
 from simc_core.reduction.explanation import of_orders
+from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import LARGEST_MS
-from simc_core.studies.remedies import calmer, filter_that_costs_little
+from simc_core.studies.remedies import TIGHT, calmer, filter_that_costs_little
 from simc_core.studies.tuned import Tuned
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
@@ -112,7 +113,7 @@ def faster_than_dead_time(of: Tuned) -> Advice | None:
         f"This is faster than the tight setting tau_c = theta. Ms is {number(of.margins.Ms, 3)}, "
         f"with tau_c = theta it is {number(tight.margins.Ms, 3)}."
     )
-    return Advice("note", "tau_c", text, tau_c, theta, True, "Take tau_c = theta.", {"tau_c": None})
+    return Advice("note", "tau_c", text, tau_c, theta, True, "Take tau_c = theta.", TIGHT)
 
 
 def slower_than_plant(of: Tuned) -> Advice | None:
@@ -221,6 +222,15 @@ def delivered(controller: Controller) -> str:
     return "PID" if controller.tau_D else "PI"
 
 
+def advice_on_settings(plant: Plant, controller: Controller) -> tuple[Advice, ...]:
+    """What applies to settings that no rule has made, judged on the first-order model of the plant."""
+    try:
+        found = slow_oscillation(half_rule(plant).model, controller)
+    except NotReducible:
+        return ()
+    return (found,) if found else ()
+
+
 def slow_oscillation(model: Model, controller: Controller) -> Advice | None:
     """Kc k' tau_I < 4 with tau_I < tau1: oscillation of period above 25 theta [SK98; SK03 eq. 22; SG12].
 
@@ -257,6 +267,7 @@ def in_words(change: dict[str, Any]) -> str:
         said.append("tau_c = " + ("theta" if change["tau_c"] is None else number(change["tau_c"], 4)))
     if "filter" in change:
         said.append(f"tau_F/tau_D = {number(change['filter'])}")
+    said += [f"{name} = {number(change[name], 4)}" for name in ("h", "r", "d", "Kc") if name in change]
     return "Take " + " with ".join(said)
 
 

@@ -16,6 +16,7 @@ FILTERS = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002)  # tau_F/tau_D
 HARDLY = 1.1  # a filter that raises Ms by no more than this costs little
 
 Change = dict[str, Any]
+TIGHT: Change = {"tau_c": None, "speed": ""}  # tau_c = theta, whatever was chosen
 
 
 def calmer(of: Tuned) -> tuple[Change, str]:
@@ -51,7 +52,7 @@ def _trials(of: Tuned) -> Iterator[tuple[Change, float]]:
     """Changes in the order in which they are proposed, with Ms of a stable loop."""
     if not isinstance(of.model, UnstableDelay):
         if of.tau_c < of.model.theta:
-            yield from _judged(of, {"tau_c": None})
+            yield from _judged(of, TIGHT)
         for factor in SLOWER:
             yield from _judged(of, {"tau_c": three_digits_up(factor * max(of.tau_c, of.model.theta))})
     other = 3 - of.order
@@ -59,7 +60,7 @@ def _trials(of: Tuned) -> Iterator[tuple[Change, float]]:
     if orders is None or orders.second_pays == (other == 2):  # never against what is said about the orders
         yield from _judged(of, {"order": other})
         if not isinstance(of.model, UnstableDelay):
-            yield from _judged(of, {"order": other, "tau_c": None})
+            yield from _judged(of, {"order": other, **TIGHT})
     for ratio in FILTERS:
         if ratio < of.choices["filter"]:
             yield from _judged(of, {"filter": ratio})

@@ -55,7 +55,7 @@ def test_a_limit_is_typed_and_emptied_again():
     app = opened(tau_c="2")
     app.number_input(key="widget_u_max").set_value(1.1).run()
     assert address(app)["u_max"] == "1.1"
-    assert cell(app, "u given").endswith("… 1.1")
+    assert cell(app, "u applied").endswith("… 1.1")
     assert float(cell(app, "Time at a limit")) > 0
     assert {"no anti-windup", "u max"} <= curves(app)[1]
     assert "Tracking time $T_t$ = 8" in texts(app)  # tau_I

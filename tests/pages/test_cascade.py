@@ -68,7 +68,7 @@ def test_the_default_page_is_a_simc_cascade_with_figures_and_diagram():
     for value in ("1.63", "3.67"):  # Msb printed in cascade.md for this inner loop: 1.632
         assert f"<b>{value}</b>" in html
     assert 'role="img"' in texts(app)
-    assert "instead of" in texts(app)
+    assert "with a single loop" in texts(app)
 
 
 def test_simc_gives_the_printed_settings_of_pair_one():

@@ -97,22 +97,17 @@ def test_the_slider_the_exact_number_and_the_presets_set_one_tau_c():
     assert address(app)["tau_c"] == "9.25"
     assert copied(app)["Kc"] == pytest.approx(8 / (9.25 + 7))
     app.button(key="preset_moderate").click().run()
-    assert "tau_c" not in address(app)
-    assert address(app)["speed"] == "moderate"  # the choice is kept, not its seconds
+    assert address(app)["speed"] == "moderate"  # a choice, which follows the plant
     assert app.number_input(key="tau_c_exact").value == pytest.approx(56)  # max(tau1, 8 theta)
+    assert "(slow)" in app.button(key="preset_moderate").label
+    app.button(key="multiple_1.5").click().run()
+    assert app.number_input(key="tau_c_exact").value == pytest.approx(10.5)
+    assert app.button(key="multiple_1.5").label == "1.5 θ: 10.5 (slow)"  # 63 % after 17.5, the plant alone after 15
     app.select_slider(key="tau_c_slider").set_value(0.1).run()
     assert app.number_input(key="tau_c_exact").value == pytest.approx(0.7)
     app.button(key="preset_tight").click().run()
-    assert not {"tau_c", "speed"} & set(address(app))
+    assert "tau_c" not in address(app)
     assert copied(app)["Kc"] == pytest.approx(8 / 14)
-
-
-def test_a_choice_of_speed_goes_with_the_plant():
-    """1.5 theta on a plant of minutes is 1.5 theta on one of milliseconds, not 600 of them."""
-    app = tuned(speed="1.5theta")
-    assert copied(app)["Kc"] == pytest.approx(8 / (1.5 * 7 + 7))
-    fast = run_page("tuning", plant="0.8exp(-0.3s)/(4s+1)", speed="1.5theta")
-    assert copied(fast)["Kc"] == pytest.approx(4 / (0.8 * 2.5 * 0.3))
 
 
 def test_a_pinned_design_stays_what_it_was_and_is_drawn_and_listed():
@@ -151,6 +146,38 @@ def test_the_same_design_is_not_pinned_twice():
 def test_derivative_action_without_a_filter_is_called_by_its_name():
     assert "derivative has no filter" in texts(tuned(order="2"))
     assert "Noise gain $K_d$/$\\tau_F$ = 7.5" in texts(tuned(order="2", filter="0.1"))
+
+
+def test_the_effective_dead_time_is_called_by_its_name():
+    """The plant's dead time is 3, that of its model 7."""
+    assert "θ = 7 is its effective dead time" in texts(tuned())
+
+
+@pytest.mark.parametrize(
+    ("plant", "parameters", "button", "before", "after"),
+    [
+        ("exp(-s)/(8s+1)", {"tau_c": "0.2"}, "remedy_Ms", "should be at most 2", {"tau_c"}),
+        ("3exp(-2s)/((10s-1)(2s+1))", {}, "remedy_Ms", "should be at most 2", {"order"}),
+        ("exp(-s)/s^2", {}, "remedy_PI chosen, PID delivered", "PI chosen, PID delivered", {"order"}),
+        ("2.2exp(-20s)/(180s+1)", {"tau_c": "1800"}, "remedy_tau_c", "Sluggish", {"tau_c"}),
+        ("exp(-0.01s)/(0.1s^2-1)", {}, "remedy_refusal", "take PID (order 2)", {"order"}),
+    ],
+)
+def test_a_remedy_is_a_button_and_helps(plant, parameters, button, before, after):
+    app = tuned(plant=plant, **parameters)
+    assert before in texts(app)
+    old = address(app)
+    app.button(key=button).click().run()
+    assert before not in texts(app)
+    new = address(app)
+    assert {name for name in {*old, *new} if old.get(name) != new.get(name)} == after
+    assert not app.error
+
+
+def test_an_unstable_plant_is_not_told_to_change_what_is_fixed():
+    shown = texts(tuned(plant="exp(-s)/(s-0.25)"))
+    assert "2.06" in shown
+    assert "ncrease" not in shown
 
 
 def test_the_set_point_weight_changes_the_response_and_not_the_margins():

@@ -5,7 +5,8 @@ import math
 import streamlit as st
 
 from pages.common.parts.strip import DIGITS, STYLE, Reading, band_of, cell_html, hover, reading
-from pages.common.studies.cascade import CascadeStudy, gain_in_IAE, speed_symbol
+from pages.common.parts.symbols import symbols
+from pages.common.studies.cascade import CascadeStudy, speed_symbol, verdict
 from simc_core.cascade.design import SEPARATE
 from simc_core.figures import palette
 from simc_core.notation import number
@@ -25,7 +26,7 @@ STEPS = ("r", "d₁", "d₂")
 
 
 def readout(study: CascadeStudy) -> None:
-    """The strip and a sentence on what the inner loop gains; of a cascade that is not sound it holds no numbers."""
+    """The strip and whether the inner loop pays; of a cascade that is not sound it holds no numbers."""
     st.html(STYLE + MORE_STYLE + strip_html(study))
     if study.sound:
         st.caption(sentence(study))
@@ -53,21 +54,12 @@ def trouble(study: CascadeStudy) -> str:
 
 
 def sentence(study: CascadeStudy) -> str:
-    """What the inner loop gains against d2, in numbers."""
-    pair = gain_in_IAE(study)
-    if pair is None:
+    """Whether the inner loop pays, with every number that speaks for or against it."""
+    found = verdict(study)
+    if found is None:
         why = study.no_single or study.unsettled
-        return f"No comparison with a single loop: {why}."
-    ours, single = pair
-    if ours < single:
-        return (
-            f"Load $d_2$: IAE **{number(ours, DIGITS)}** instead of {number(single, DIGITS)} with a single loop, "
-            f"{number(single / ours, 2)} times smaller."
-        )
-    return (
-        f"Load $d_2$: IAE **{number(ours, DIGITS)}**, no better than {number(single, DIGITS)} with a single loop. "
-        "*Speed the inner loop up, or do without it.*"
-    )
+        return f"No comparison with a single loop: {symbols(why)}."
+    return symbols(found.text)
 
 
 def separation(study: CascadeStudy) -> str:
@@ -91,11 +83,11 @@ def _first(label: str, judged: Margins) -> str:
 
 
 def _margins(judged: Margins) -> list[Reading]:
-    gain = reading("Gain m.", judged.GM)
+    gain = reading("Gain margin", judged.GM)
     if judged.GM_lower > 0:
         text = f"{number(judged.GM_lower, DIGITS)} · {number(judged.GM, DIGITS)}"
         gain = Reading("GM low · high", text, f"{judged.GM_lower:.10g} · {judged.GM:.10g}")
-    return [gain, reading("Phase m.", judged.PM_deg, "°"), reading("Delay m.", judged.delay_margin)]
+    return [gain, reading("Phase margin", judged.PM_deg, "°"), reading("Delay margin", judged.delay_margin)]
 
 
 def _IAE(study: CascadeStudy) -> list[Reading]:

@@ -12,14 +12,15 @@ from simc_core.loops.nested import CascadeLoop
 from simc_core.notation import number
 from simc_core.simulation import NestedResponse
 from simc_core.simulation.nested_windup import limited
+from simc_core.studies.built_advice import error_integral, protections_compared
 
 HEIGHT = 300  # px
 KEPT = 8
 NAMES = {"both": "both protected", "inner": "inner only", "none": "no protection"}
 SHARE = 0.4  # of what u asks for beyond its final value: limits that bite, for a start
 EXPLAINED = (
-    "While u is at a limit the inner loop cannot follow, and both controllers go on integrating an error that nothing "
-    "answers. Back calculation stops the inner one; the outer one stops too, and takes over without a bump, when it is "
+    "While u is at a limit the inner loop cannot follow, and both controllers go on integrating an error they cannot "
+    "remove. Back calculation stops the inner one; the outer one stops too, and takes over without a bump, when it is "
     "led back to the set point that the inner loop could have followed, $r_2 + e/K_b$, $e$ what the limit takes away."
 )
 
@@ -47,6 +48,7 @@ def windup_view(study: CascadeStudy) -> None:
         show(input_figure(curves, HEIGHT), "windup_u", "Limited input u, three protections")
     with right:
         show(inner_setpoint_figure(curves, HEIGHT), "windup_r2", "Inner set point r2, three protections")
+    st.caption(protections_compared({name: error_integral(c.t, c.r, c.y) for name, c in curves}))
     st.caption(
         f"Unit step of the set point from rest, u between {number(limits[0], 3)} and {number(limits[1], 3)}. "
         "Deviations from the working point, so that the limits enclose 0."

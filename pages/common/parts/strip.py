@@ -44,6 +44,7 @@ MEANINGS = {
     "IAE": "integral of |r − y| after a unit step, over all time",
     "TV": "total variation of u, the wear of the actuator, after a unit step",
     "Overshoot": "of y beyond a unit step of the set point",
+    "Peak": "how far y goes at most after a unit step of the load at the plant input",
     "Settling": "time until y stays within 2 % of the step",
 }
 

@@ -1,11 +1,13 @@
 """From what the user has decided of a cascade to everything its page shows of it. Pure: no streamlit."""
 
+import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from pages.common.session.design import Cascade
 from simc_core.cascade.design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
 from simc_core.cascade.pairs import PairRow
+from simc_core.cascade.verdict import CascadeVerdict, cascade_verdict
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import IController
 from simc_core.errors import SimcError
@@ -24,10 +26,11 @@ KEPT = 16  # cascades of all sessions; direct synthesis searches 0.05 to 0.2 s, 
 
 @dataclass(frozen=True, slots=True)
 class SingleLoop:
-    """One controller for Ga Gb, with the same disturbances; performance is None where it is not stable."""
+    """One controller for Ga Gb, with the same disturbances; performance is None where it is not stable, Ms then nan."""
 
     loop: CascadeLoop
     performance: NestedPerformance | None
+    Ms: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -163,11 +166,12 @@ def of_row(row: PairRow) -> Cascade:
     )
 
 
-def gain_in_IAE(study: CascadeStudy) -> tuple[float, float] | None:
-    """IAE of d2 with the cascade and with one loop; None where one of them has none."""
+def verdict(study: CascadeStudy) -> CascadeVerdict | None:
+    """Whether the cascade pays; None where it or the single loop has no IAE."""
     if study.performance is None or study.single is None or study.single.performance is None:
         return None
-    return study.performance.disturbance2.IAE, study.single.performance.disturbance2.IAE
+    single = study.single
+    return cascade_verdict(study.performance, study.outer.Ms, study.inner.Ms, single.performance, single.Ms)
 
 
 def speed_symbol(cascade: Cascade) -> str:
@@ -196,7 +200,8 @@ def _single(cascade: Cascade) -> tuple[SingleLoop | None, str]:
         return None, str(error)
     if not isinstance(loop.outer, IController):
         loop = replace(loop, outer=replace(loop.outer, b=cascade.b))
-    if not margins(loop.outer_loop).stable:
-        return SingleLoop(loop, None), "it is not stable"
+    judged = margins(loop.outer_loop)
+    if not judged.stable:
+        return SingleLoop(loop, None, math.nan), "it is not stable"
     found, why = _performance(loop)
-    return SingleLoop(loop, found), why
+    return SingleLoop(loop, found, judged.Ms), why

@@ -11,9 +11,12 @@ from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
 from pages.common.session.design import Actuator
 from pages.common.studies.single import Study
+from pages.common.tuning.guards import proposal
 from simc_core.checks import LARGEST_GAIN, LONGEST_TIME
 from simc_core.figures import built_input_figure, built_output_figure, palette
 from simc_core.notation import number
+from simc_core.studies.advice import Advice
+from simc_core.studies.built_advice import error_integral, out_of_reach, protections_compared, sampling_not_in_tuning
 from simc_core.studies.with_actuator import AsBuilt, BuiltNumbers, as_built
 
 VIEW = "Actuator"
@@ -73,6 +76,9 @@ def actuator_view(study: Study, actuator: Actuator) -> None:
     """Inputs on top; numbers; y and u as built over the linear loop."""
     st.html(strip.STYLE + STYLE)
     _inputs(actuator)
+    with st.container(key="built_guards", gap="xsmall"):
+        for item in guards_of(study, actuator):
+            proposal(item)
     with explain_refusal():
         found = as_built(study.loop, actuator.scenario)
         st.html(numbers_html(found))
@@ -84,16 +90,22 @@ def actuator_view(study: Study, actuator: Actuator) -> None:
         st.caption(explained(found, study, actuator))
 
 
+def guards_of(study: Study, actuator: Actuator) -> list[Advice]:
+    """What must not be overlooked in the loop as built."""
+    sampled = sampling_not_in_tuning(study.tuned, actuator.h) if study.tuned else None
+    return [*out_of_reach(study.loop.plant, actuator.scenario), *([sampled] if sampled else [])]
+
+
 def _inputs(actuator: Actuator) -> None:
     zero_is_the_other = {"u_min": -1 / LARGEST_GAIN if actuator.u_max == 0 else 0.0}
     zero_is_the_other["u_max"] = 1 / LARGEST_GAIN if actuator.u_min == 0 else 0.0
     with st.container(key="actuator_inputs"):
         _number("Lowest u", "u_min", -LARGEST_GAIN, zero_is_the_other["u_min"], LIMIT, "no limit")
         _number("Highest u", "u_max", zero_is_the_other["u_max"], LARGEST_GAIN, LIMIT, "no limit")
-        _number("Tracking time", "T_t", 1 / LONGEST_TIME, LONGEST_TIME, TRACKING, "usual choice")
-        _number("Sampling period", "sampling", 0.0, LONGEST_TIME, SAMPLING)
-        _number("Noise on y, std", "noise", 0.0, LARGEST_GAIN, NOISE)
-        _number("Noise seed", "seed", 0, 2**32 - 1, "The same number gives the same noise.")
+        _number("Tracking time", "T_t", 1 / LONGEST_TIME, LONGEST_TIME, TRACKING, "automatic")
+        _number("Sampling of the controller", "sampling", 0.0, LONGEST_TIME, SAMPLING)
+        _number("Measurement noise (std. dev.)", "noise", 0.0, LARGEST_GAIN, NOISE)
+        _number("Random seed", "seed", 0, 2**32 - 1, "The same number gives the same noise.")
         _number("Set-point step", "r", -LARGEST_GAIN, LARGEST_GAIN, HEIGHTS)
         _number("Load step", "d", -LARGEST_GAIN, LARGEST_GAIN, HEIGHTS)
 
@@ -145,8 +157,8 @@ def cells_of(found: AsBuilt, numbers: BuiltNumbers) -> list[tuple[str, str, str]
     cells = [("IAE as built · linear", _pair(numbers.IAE, numbers.IAE_linear), "∫|r − y| over the time shown")]
     if found.actuation.limited:
         cells += [
-            ("u asked for", _range(numbers.u_asked), "smallest and largest value the controller asks for"),
-            ("u given", _range(numbers.u_given), "smallest and largest value the actuator gives"),
+            ("u requested", _range(numbers.u_asked), "smallest and largest value the controller asks for"),
+            ("u applied", _range(numbers.u_given), "smallest and largest value the actuator gives"),
             ("Time at a limit", number(numbers.limited, DIGITS), "total, in your time unit"),
         ]
     if found.actuation.noise:
@@ -166,6 +178,9 @@ def explained(found: AsBuilt, study: Study, actuator: Actuator) -> str:
     ]
     if found.actuation.limited and math.isfinite(found.T_t):
         lines.append(f"Tracking time $T_t$ = {number(found.T_t)}; dotted: the same without anti-windup.")
+    if found.unprotected is not None and found.numbers is not None and not found.actuation.noise:
+        both = {"with anti-windup": found.built, "without": found.unprotected}
+        lines.append(protections_compared({name: error_integral(c.t, c.r, c.y) for name, c in both.items()}))
     if found.actuation.noise:
         lines.append(f"The noise takes a new value every {number(found.step)}, the step of the controller.")
     if found.actuation.h:

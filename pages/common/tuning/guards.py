@@ -8,7 +8,7 @@ from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.notation import number
-from simc_core.studies.advice import Advice, advice, in_words
+from simc_core.studies.advice import Advice, advice, advice_on_settings, in_words
 
 PLACES = {"error": st.error, "warning": st.warning, "note": st.caption}
 
@@ -17,17 +17,22 @@ def show(study: Study) -> None:
     """Advice on the design, the gravest first; what it proposes is a button."""
     st.html(STYLE)
     with st.container(key="guards", gap="xsmall"):
-        for item in advice(study.tuned):
-            PLACES[item.level](words(item))
-            if item.change:
-                st.button(
-                    symbols(in_words(item.change)),
-                    key=f"remedy_{item.quantity}",
-                    type="tertiary",
-                    icon=":material/arrow_forward:",
-                    on_click=state.change,
-                    kwargs=item.change,
-                )
+        for item in advice(study.tuned) if study.tuned else advice_on_settings(study.loop.plant, study.controller):
+            proposal(item)
+
+
+def proposal(item: Advice) -> None:
+    """One piece of advice; what it proposes is a button."""
+    PLACES[item.level](words(item))
+    if item.change and "Kc" not in item.change:  # settings are typed, not made from choices
+        st.button(
+            symbols(in_words(item.change)),
+            key=f"remedy_{item.quantity}",
+            type="tertiary",
+            icon=":material/arrow_forward:",
+            on_click=state.change,
+            kwargs=item.change,
+        )
 
 
 def words(item: Advice) -> str:

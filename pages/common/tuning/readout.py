@@ -40,6 +40,6 @@ def readings(study: Study) -> list[Reading]:
         reading("Mt, peak of |T|", judged.Mt),
         pair("TV set point · load", metrics.setpoint.TV, metrics.disturbance.TV),
         percent("Overshoot", metrics.setpoint.overshoot),
-        reading("Settling set point", metrics.setpoint.settling_time),
-        reading("Settling load", metrics.disturbance.settling_time),
+        pair("Settling set point · load", metrics.setpoint.settling_time, metrics.disturbance.settling_time),
+        reading("Peak of y, unit load", metrics.disturbance.peak),
     ]
