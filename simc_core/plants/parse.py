@@ -8,6 +8,7 @@ were written apart stay apart, so that nothing is lost on the way. What could be
 5e-3s, is refused with the way out; nothing is ever evaluated as code, and the work is bounded.
 """
 
+import re
 from fractions import Fraction
 
 from simc_core.errors import ParseError
@@ -15,7 +16,7 @@ from simc_core.plants.parse_values import Value, number_of, plant_of
 from simc_core.plants.pasted.calls import read_call
 from simc_core.plants.pasted.clutter import without_clutter
 from simc_core.plants.pasted.grammar import Reader
-from simc_core.plants.pasted.parameters import dead_time_names, from_parameters
+from simc_core.plants.pasted.parameters import DAMPING, DELAYS, GAINS, LAGS, from_parameters
 from simc_core.plants.pasted.statements import Statement, statements
 from simc_core.plants.plant import Plant
 
@@ -50,6 +51,13 @@ def parse_plant(text: str) -> Plant:
         raise ParseError(f"text must have at most {LONGEST_TEXT} characters, got {len(text)}", text, LONGEST_TEXT)
     if not text.strip():
         raise ParseError(f"text must not be empty: write a transfer function, {EXAMPLE}", text)
+    try:
+        return _plant(text)
+    except OverflowError:
+        raise ParseError("numbers here grow beyond all bounds", text) from None
+
+
+def _plant(text: str) -> Plant:
     value = _Statements(text).value()
     if value.theta < 0:
         raise ParseError(
@@ -95,6 +103,8 @@ class _Statements:
         if part.names_a_plant or not _only_digits(self.plain[part.start : part.stop]):
             return False
         number = number_of(self.reader(part).plant())
+        if part.key in ("s", "e"):
+            raise self.fault(f"'{part.name}' cannot be given a value here", part)
         if part.key in self.numbers:
             raise self.fault(f"'{part.name}' is given twice", part)
         self.numbers[part.key] = number, part
@@ -102,8 +112,10 @@ class _Statements:
         return True
 
     def read_function(self, part: Statement) -> None:
-        if part.key.lower() in dead_time_names():
-            raise self.fault(f"'{part.name}' must be a number without a unit, as in theta = 3", part)
+        name, given = part.key.lower(), self.plain[part.start : part.stop].strip()
+        with_unit = name in (*GAINS, *LAGS, *DAMPING) and re.fullmatch(r"[-+\d.,eE ]*\d *[^\W\d_%°/]+", given)
+        if name in DELAYS or with_unit:
+            raise self.fault(f"'{part.name}' must be a number without a unit, as in {part.name} = 3", part)
         reader = self.reader(part)
         value = reader.plant()
         self.used |= reader.used
@@ -117,7 +129,7 @@ class _Statements:
     def delayed(self, value: Value, unused: dict[str, tuple[Fraction, Statement]]) -> Value:
         """The transfer function with a dead time that was given beside it, G = ..., L = 0.5."""
         for name, (number, part) in unused.items():
-            if name.lower() not in dead_time_names():
+            if name.lower() not in DELAYS:
                 raise self.fault(
                     f"'{part.name}' is given a value and is not used: write theta = {float(number):g} if it is the "
                     "dead time, or leave it out",

@@ -8,7 +8,7 @@ from simc_core.numbers import read_exact_numbers
 from simc_core.numbers.one import read_exact
 from simc_core.numbers.several import program_list
 from simc_core.plants.parse_values import ONE, S, Value, constant, inverse, polynomial, times
-from simc_core.plants.pasted.grammar import Reader
+from simc_core.plants.pasted.grammar import DEEPEST, Reader
 from simc_core.plants.pasted.tokens import Token, bare
 
 DELAYS = ("inputdelay", "outputdelay", "iodelay")
@@ -100,13 +100,15 @@ def _options(written: str, parts: list[tuple[str, int]]) -> tuple[list[str], Fra
 def _check_continuous(written: str, more: list[str]) -> None:
     if more and more[0].strip().lower() not in CONTINUOUS:
         raise InvalidParameter(
-            f"the number {more[0].strip()[:20]} at the end of {written}(...) is a sampling time, and sampled models are "
-            "not read: if it is the dead time, write 'InputDelay' before it"
+            f"the number {more[0].strip()[:20]} at the end of {written}(...) is a sampling time, and sampled models "
+            "are not read: if it is the dead time, write 'InputDelay' before it"
         )
 
 
 def _syslin(reader: Reader, token: Token, parts: list[tuple[str, int]]) -> Value:
     """syslin('c', num/den) and syslin('c', num, den)."""
+    if reader.depth >= DEEPEST:
+        raise reader.fault(f"brackets must not be nested more than {DEEPEST} deep", token.at)
     values = []
     for part, at in parts[1:3]:
         start = token.at + at

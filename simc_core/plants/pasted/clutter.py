@@ -7,25 +7,24 @@ import re
 
 from simc_core.numbers.signs import INVISIBLE, tidied
 
-COMMENT = re.compile(r"(?:(?<=[\s;)\]}\d])|^)[%#]+(?![sp]\b|pi\b|e\b)(?P<words>\s*[^\W\d_][^\n]*)?")
+COMMENT = re.compile(r"(?<![^\s;)\]}])(?<!\d )[%#]+(?![sp]\b|pi\b|e\b)(?P<words>\s*[^\W\d_][^\n]*)?")
 PRINTED = re.compile(
-    r"<TransferFunction>:?\s*\S*|(?:Inputs|Outputs) \(\d+\): \[[^\]\n]*\]|Transfer function\b.*?output\s*'?\w*'?\s*(?:\.\.\.|:)?"
-    r"|From input\b.*?to output\b.*?(?:\.\.\.|:)|Transfer function:|Continuous-time[\w/ -]*?(?:function|model)\.?|\by\d+:(?=\s)"
-    r"|Continuous-time model\.?|\bsyms\s+[sp]\b|\bdt\s*[:=]\s*None|Model Properties",
+    r"<TransferFunction>:?\s*\S*"
+    r"|(?:Inputs|Outputs) \(\d+\): \[.*?'\](?=\s|$)"
+    r"|Transfer function\b.*?output\s*'?\w*'?\s*(?:\.\.\.|:)?"
+    r"|From input\b.*?to output\b.*?(?:\.\.\.|:)"
+    r"|Transfer function:"
+    r"|Continuous-time[\w/ -]*?(?:function|model)\.?"
+    r"|\by\d+:(?=\s)"
+    r"|\bsyms\s+[sp]\b",
     re.IGNORECASE,
 )
 LATEX = re.compile(r"\\(?:begin|end)\{[a-z]+\*?\}|\\label\{[^{}]*\}|\\nonumber|\\tag\{[^{}]*\}|\\\\|&")
-UNIT = re.compile(r"\[(?=[^\[\]]*[^\W\d_sp]|[^\[\]]*[%°])[^\[\]\d]*\]\s*$")
-WRAPPERS = (
-    ("$$", "$$"),
-    ("$", "$"),
-    (r"\(", r"\)"),
-    (r"\[", r"\]"),
-    ("'", "'"),
-    ('"', '"'),
-    ("```", "```"),
-    ("`", "`"),
-)
+UNIT = re.compile(r"(?<=[\s)])\[\s*(?!(?:[sp]|exp)\s*\])[^\W\d_°]*[%°]?[^\W\d_]*(?:\s*/\s*(?:°?[^\W\d_]+|%))?\s*\]\s*$")
+ROMAN = re.compile(r"\{\s*\\rm\s+(\w+)\s*\}")
+QUOTES = ("$$", "$", "'", '"', "```", "`")
+WRAPPERS = (*((quote, quote) for quote in QUOTES), (r"\(", r"\)"), (r"\[", r"\]"))
+LATEX_COMMA = re.compile(r"(?<=\d)\{,\}(\d+)")
 SHORT_BAR = re.compile(r"(?<=\n)[ \t]*-{1,2}[ \t]*(?=\n)")
 BAR = re.compile(r"-{3,}")
 TRAILING = ";., \t\n\r"
@@ -36,11 +35,12 @@ def without_clutter(text: str) -> str:
     plain = tidied(text)
     for sign in INVISIBLE:
         plain = plain.replace(sign, " ") if plain.startswith(sign) or plain.endswith(sign) else plain
-    plain = _blanked(PRINTED, plain)
+    plain = LATEX_COMMA.sub(r",\1  ", _blanked(PRINTED, plain))
     plain = SHORT_BAR.sub(lambda found: found[0].replace("-", "═"), plain)
     drawn = bool(BAR.search(plain) or "═" in plain)
     plain = COMMENT.sub(lambda found: _comment(found, drawn), plain)
     plain = _blanked(UNIT, _blanked(LATEX, plain))
+    plain = ROMAN.sub(lambda found: found[1].rjust(len(found[0])), plain)
     return _unwrapped(plain)
 
 
@@ -48,7 +48,7 @@ def _comment(found: re.Match, drawn: bool) -> str:
     """Blanks for a comment; of a fraction drawn in comment lines only the marks go."""
     if found["words"] and not drawn:
         return " " * len(found[0])
-    return found[0].replace("%", " ").replace("#", " ")
+    return found[0].replace("%", " ").replace("#", " ") if drawn else found[0]
 
 
 def _blanked(pattern: re.Pattern, text: str) -> str:

@@ -4,10 +4,12 @@ fraction = sum [ "\\over" sum ]
 sum      = ["+" | "-"] product { ("+" | "-") product }
 product  = power { ["*" | "/"] power }
 power    = atom [ ("^" | "**") whole number ]
-atom     = number | "s" | "(" fraction ")" | "exp" "(" sum ")" | "e^" exponent | "\\frac" "{" sum "}" "{" sum "}" | call
+atom     = number | "s" | "(" fraction ")" | "exp" "(" sum ")" | "e^" exponent | "\\frac" "{" sum "}" "{" sum "}"
+             | name | call | "sqrt" "(" number ")" | "pi" | list of coefficients
 """
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
@@ -33,7 +35,7 @@ from simc_core.plants.parse_values import (
     times,
     too_large,
 )
-from simc_core.plants.pasted.shapes import check_lost_powers, with_bar
+from simc_core.plants.pasted.shapes import check_lost_powers, check_lost_tens, check_one_variable, with_bar
 from simc_core.plants.pasted.sums_of_delays import advice
 from simc_core.plants.pasted.tokens import Token, bare, superscript_delay, tokens
 
@@ -68,6 +70,8 @@ class Reader:
         self.call = call
         self.tokens = with_bar(list(tokens(text, plain, start, stop, names)))
         check_lost_powers(text, self.tokens)
+        check_lost_tens(text, self.tokens)
+        check_one_variable(text, self.tokens)
         self.next = 0
         self.depth = 0
         self.used: set[str] = set()
@@ -269,6 +273,12 @@ class Reader:
             raise self.fault(str(error), token.at) from None
 
     def coefficients(self, token: Token) -> Value:
+        if re.fullmatch(r"\[\s*[+-]?\d+,\d+\s*\]", token.text):
+            raise self.fault(
+                f"'{token.text}' can be read in two ways: write {token.text.replace(',', '.')} for one number, "
+                f"{token.text.replace(',', ' ')} for two coefficients",
+                token.at,
+            )
         try:
             found = read_exact_numbers("the list", token.text)
         except InvalidParameter as error:
@@ -276,7 +286,7 @@ class Reader:
         return self.checked(polynomial(found), token.at)
 
     def square_root(self, token: Token) -> Value:
-        argument = self.group() if self.token.text in CLOSING else self.atom()
+        argument = self.atom() if self.token.kind == "number" else self.group()
         value = number_of(argument)
         if value is None or value < 0:
             raise self.fault("a square root must be of a number >= 0", token.at)

@@ -16,11 +16,6 @@ DAMPING = ("zeta", "zeta0", "xi")
 ENOUGH = "write gain, lag and dead time as in k=2, tau=10, theta=3, or a transfer function as in 2 e^{-3s}/(10s+1)"
 
 
-def dead_time_names() -> tuple[str, ...]:
-    """Names that mean a dead time wherever they stand beside a transfer function."""
-    return DELAYS
-
-
 def from_parameters(text: str, given: dict[str, tuple[Fraction, Statement]]) -> Value:
     """The plant of the parameters `given`, by name.
 

@@ -60,6 +60,30 @@ def check_lost_powers(text: str, row: list[Token]) -> None:
             )
 
 
+def check_lost_tens(text: str, row: list[Token]) -> None:
+    """Refuse 2·103 and 2·10-3, where a power of ten has lost its superscript; a program's * is taken at its word."""
+    for times, ten, after in zip(row, row[1:], row[2:], strict=False):
+        if times.text != "*" or text[times.at] in "*." or ten.kind != "number" or ten.text[:2] != "10":
+            continue
+        if ten.text[2:].isdigit() or (ten.text == "10" and after.text == "-" and after.at == ten.at + 2):
+            raise ParseError(
+                f"'{ten.text}' after a multiplication can be read in two ways: write 10^3 if it is a power of ten, "
+                f"or * before it if it is not (position {ten.at + 1})",
+                text,
+                ten.at,
+            )
+
+
+def check_one_variable(text: str, row: list[Token]) -> None:
+    """Refuse a text in s and p."""
+    variables = {token.text.strip("%").lower(): token for token in row if token.kind == "s"}
+    if len(variables) > 1:
+        at = variables["p"].at
+        raise ParseError(
+            f"there are two variables, s and p: write one, or give p a value (position {at + 1})", text, at
+        )
+
+
 def _in_exponent(row: list[Token], at: int) -> bool:
     """Whether the number at this place begins an exponent, as in exp(-1e-6 s)."""
     while at > 0 and row[at - 1].text in ("+", "-", "(", "[", "{", "^", "**"):

@@ -7,7 +7,7 @@ from simc_core.plants.pasted.tokens import bare
 
 WORD = (
     r"(?:dead[ -]?time|time constant|\\(?:hat|tilde|bar|mathrm|mathbf|text)\s*\{[^{}=]{1,20}\}|\\?[^\W\d_]\w*)"
-    r"(?:_\{[^{}=]{1,20}\}|\^\{?\w\}?|')*(?:\.[^\W\d_]\w*)*(?:\s*\(\s*(?:s|p|S|t)\s*\))?"
+    r"(?:_\{[^{}=]{1,20}\}|\^\{?\w\}?|')*(?:\.[^\W\d_]\w*)*(?:\s*\(\s*(?:[spSzt]|jw|jω|iω)\s*\))?"
 )
 RATIO = rf"(?:\\[dt]?frac\s*\{{\s*{WORD}\s*\}}\s*\{{\s*{WORD}\s*\}}|{WORD}(?:\s*/\s*{WORD})?)"
 ASSIGNMENT = re.compile(rf"(?<![\w.\\/*^+)}}\]-])(?P<name>{RATIO})\s*(?P<sign>:=|==?|≈|≅|≃|≡|~=)")

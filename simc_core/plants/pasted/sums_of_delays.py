@@ -12,7 +12,7 @@ def advice(a: Value, b: Value, sign: int) -> str:
     slope; k (e^{-t1 s} - e^{-t2 s}) and k (t2 - t1) s e^{-(t1 + t2) s/2} agree up to s^2.
     """
     common = "take a common dead time out of the sum, as in (1/(s+1) + 2/(3s+1)) e^(-2s)"
-    if degree(a) or degree(b) or is_zero(a) or is_zero(b):
+    if degree(a) or degree(b) or is_zero(a) or is_zero(b) or min(a.theta, b.theta) < 0:
         return f"{common}, or enter one term, or a model with one dead time fitted to the step response"
     k1, k2 = _constant(a), sign * _constant(b)
     if k1 * k2 > 0:

@@ -21,13 +21,13 @@ LETTER = rf"(?:(?![{RAISED}½¼¾ˢᵖ])[^\W\d_])"
 WITH_POINT = r"[1-9]\d{0,2}(?:,\d{3})+\.\d+"
 GROUPED = r"[1-9]\d{0,2}(?:[ ']\d{3})+(?![\d])(?:[.,]\d+)?"
 SIMPLE = r"\d+(?:[.,]\d*)?|[.,]\d+"
-LIST_ITEM = rf"[+-]?(?:{SIMPLE})(?:[eE][+-]?\d+)?"
+LIST_ITEM = re.compile(rf"[+-]?(?:{SIMPLE})(?:[eE][+-]?\d+)?")
 SPACE = re.compile(r"(?:\s|\\(?:left|right|[bB]igg?[lr]?|displaystyle|limits|quad|qquad)(?![a-z])|\\[,;:! ]|~)+")
 TIMES = re.compile(rf"\\(?:cdot|times)(?![a-z])|(?<=[\d\s])x(?=\s*10(?:\^|\*\*|[⁻{RAISED}]))")
 TOKEN = re.compile(
     rf"(?P<number>(?:{WITH_POINT}|{GROUPED}|{SIMPLE})(?:[eE][+-]?\d+)?)"
-    rf"|(?P<bar>-{{3,}}|[─━═]{{2,}}|_{{3,}})"
-    rf"|(?P<list>\[\s*{LIST_ITEM}(?:(?:\s*,\s*|\s+){LIST_ITEM})+\s*,?\s*\])"
+    rf"|(?P<bar>-{{3,}}|═+|[─━]{{3,}}|_{{3,}})"
+    r"|(?P<list>\[[\d.,eE+\s-]*\])"
     rf"|(?P<delay>e[⁻⁺]?[{RAISED}]*[ˢᵖ])"
     rf"|(?P<word>\\(?:mathrm|text|operatorname|mathit|rm)\s*\{{\s*\w+\s*\}}|[%\\]?{LETTER}(?:{LETTER}|[0-9]|_\w|_\{{\w+\}})*"
     rf"(?:\.{LETTER}\w*)*|[√])"
@@ -43,8 +43,9 @@ WORDS = {
     "pi": ("pi", "π", "%pi", "np.pi", "numpy.pi", "math.pi"),
 }
 KIND_OF = {word: kind for kind, words in WORDS.items() for word in words}
-VARIABLES = ("s", "p", "%s")
+VARIABLES = ("s", "S", "p", "%s")
 CALLS = ("tf", "transferfunction", "transferfunctioncontinuous", "zpk", "zerospolesgain", "syslin", "lti", "delay")
+LONGEST_ROW = 40  # letters of names written without a sign between
 HINTS = {
     "ss": "state space is not read: write the transfer function, or its coefficients as tf([1 2], [1 3 2])",
     "statespace": "state space is not read: write the transfer function, or its coefficients as tf([1 2], [1 3 2])",
@@ -70,16 +71,25 @@ def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str])
             continue
         found = TOKEN.match(plain, at, stop)
         if not found:
-            raise ParseError(f"'{text[at]}' is not part of a transfer function (position {at + 1})", text, at)
+            hint = ": write 0.5, or 50, for 50 %" if text[at] == "%" else ""
+            raise ParseError(f"'{text[at]}' is not part of a transfer function{hint} (position {at + 1})", text, at)
         kind, written = found.lastgroup, found[0]
+        if kind == "list" and not _is_list(written):
+            kind, written = "sign", "["
         if kind == "word":
             for token in _word(text, plain, written, at, names):
                 yield token
                 at = token.at + len(token.text)
             continue
         yield Token(kind, written.lstrip(".") if kind in ("power", "sign") else written, at)
-        at = found.end()
+        at += len(written)
     yield Token("end", "the end", stop)
+
+
+def _is_list(written: str) -> bool:
+    """Whether [..] holds at least two numbers side by side, and not a sum or one number in brackets."""
+    words = re.split(r"\s*,\s*|\s+", written[1:-1].strip().rstrip(","))
+    return len(words) > 1 and all(LIST_ITEM.fullmatch(word) for word in words)
 
 
 def bare(word: str) -> str:
@@ -104,7 +114,7 @@ def _word(text: str, plain: str, written: str, at: int, names: Collection[str]) 
         raise _lost_exponent(text, plain, at, end)
     if kind:
         return [Token(kind, written, at)]
-    if known in VARIABLES:
+    if written in VARIABLES:
         return [Token("s", written, at)]
     if opened and known.rpartition(".")[2] in CALLS:
         return [Token("call", plain[at : _closing(text, plain, end + plain[end:].index("("))], at)]
@@ -116,14 +126,14 @@ def _word(text: str, plain: str, written: str, at: int, names: Collection[str]) 
 
 def _pieces(written: str, at: int, names: Collection[str], plain: str) -> list[Token]:
     """The word as a row of names, variables and exponentials; empty if it is none."""
-    if not written:
+    if not 0 < len(written) <= LONGEST_ROW:
         return []
     for length in range(len(written), 0, -1):
         piece, rest = written[:length], written[length:]
         after = at + length
         if bare(piece) in names:
             kind = "name"
-        elif piece.lower() in ("s", "p"):
+        elif piece in VARIABLES:
             kind = "s"
         elif piece == "exp" or (piece == "e" and re.match(r"\s*(?:\^|\*\*)", plain[after:])):
             kind = piece
@@ -134,8 +144,7 @@ def _pieces(written: str, at: int, names: Collection[str], plain: str) -> list[T
         else:
             continue
         following = _pieces(rest, after, names, plain)
-        if following or not rest:
-            return [Token(kind, piece, at), *following]
+        return [Token(kind, piece, at), *following] if following or not rest else []
     return []
 
 
