@@ -12,6 +12,7 @@ import re
 from fractions import Fraction
 
 from simc_core.errors import ParseError
+from simc_core.numbers.refusal import quoted
 from simc_core.plants.parse_values import Value, number_of, plant_of
 from simc_core.plants.pasted.calls import read_call
 from simc_core.plants.pasted.clutter import without_clutter
@@ -104,9 +105,9 @@ class _Statements:
             return False
         number = number_of(self.reader(part).plant())
         if part.key in ("s", "e"):
-            raise self.fault(f"'{part.name}' cannot be given a value here", part)
+            raise self.fault(f"'{quoted(part.name)}' cannot be given a value here", part)
         if part.key in self.numbers:
-            raise self.fault(f"'{part.name}' is given twice", part)
+            raise self.fault(f"'{quoted(part.name)}' is given twice", part)
         self.numbers[part.key] = number, part
         self.names[part.key] = Value(((number,),))
         return True
@@ -115,7 +116,9 @@ class _Statements:
         name, given = part.key.lower(), self.plain[part.start : part.stop].strip()
         with_unit = name in (*GAINS, *LAGS, *DAMPING) and re.fullmatch(r"[-+\d.,eE ]*\d *[^\W\d_%°/]+", given)
         if name in DELAYS or with_unit:
-            raise self.fault(f"'{part.name}' must be a number without a unit, as in {part.name} = 3", part)
+            raise self.fault(
+                f"'{quoted(part.name)}' must be a number without a unit, as in {quoted(part.name)} = 3", part
+            )
         reader = self.reader(part)
         value = reader.plant()
         self.used |= reader.used
@@ -131,7 +134,7 @@ class _Statements:
         for name, (number, part) in unused.items():
             if name.lower() not in DELAYS:
                 raise self.fault(
-                    f"'{part.name}' is given a value and is not used: write theta = {float(number):g} if it is the "
+                    f"'{quoted(part.name)}' is given a value and is not used: write theta = {float(number):g} if it is the "
                     "dead time, or leave it out",
                     part,
                 )

@@ -17,6 +17,7 @@ from simc_core import checks
 from simc_core.errors import InvalidParameter, ParseError
 from simc_core.numbers import read_exact_numbers
 from simc_core.numbers.one import decimal
+from simc_core.numbers.refusal import quoted
 from simc_core.numbers.signs import LOWERED
 from simc_core.plants.parse_values import (
     MINUS_ONE,
@@ -79,7 +80,7 @@ class Reader:
     def plant(self) -> Value:
         value = self.fraction()
         if self.token.kind != "end":
-            raise self.fault(f"a transfer function must end here, got '{self.token.text}'")
+            raise self.fault(f"a transfer function must end here, got {_named(self.token)}")
         return value
 
     @property
@@ -159,13 +160,13 @@ class Reader:
         if token.kind == "number" and not self.is_power_of_ten():
             if before.kind == "number":
                 raise self.fault(
-                    f"two numbers stand side by side, '{before.text} {token.text}': write them as one without a blank, "
+                    f"two numbers stand side by side, '{quoted(f'{before.text} {token.text}')}': write them as one without a blank, "
                     "or put +, - or * between them",
                     token.at,
                 )
             # 10s 1 is 10s+1 that lost its plus, as in a link where + was not written %2B
             raise self.fault(
-                f"a sign is missing before this number: write +, - or * before {token.text}, or ^ if it is a power"
+                f"a sign is missing before this number: write +, - or * before {quoted(token.text)}, or ^ if it is a power"
             )
         if before.kind == "list" and token.kind not in EXPONENTIALS:
             raise self.fault("after a list of coefficients write / or *")
@@ -209,7 +210,7 @@ class Reader:
         sign = -1 if self.take("-") else 1
         token = self.token
         if token.kind != "number" or not token.text.isascii() or not token.text.isdigit():
-            raise self.fault(f"a power must be a whole number, got '{token.text}'")
+            raise self.fault(f"a power must be a whole number, got {_named(token)}")
         self.next += 1
         if opened:
             self.close(opened)
@@ -259,11 +260,11 @@ class Reader:
             raise self.fault(f"a number must be below 1e{LARGEST_EXPONENT}, got {token.text[:20]}", token.at)
         following = self.token
         if following.kind == "number" and following.at == token.at + len(token.text):
-            raise self.fault(f"'{token.text}{following.text}' is not a number", token.at)
+            raise self.fault(f"'{quoted(token.text + following.text)}' is not a number", token.at)
         if " " in digits and "+" not in self.text and " " in self.text[token.at : token.at + len(token.text)]:
             # a link whose + was not written %2B has lost all of them: 1 200s may have been 1+200s
             raise self.fault(
-                f"'{token.text}' can be read in two ways: write {digits.replace(' ', '')} without a blank, "
+                f"'{quoted(token.text)}' can be read in two ways: write {quoted(digits.replace(' ', ''))} without a blank, "
                 "or put + between",
                 token.at,
             )
@@ -340,4 +341,4 @@ class Reader:
 
 
 def _named(token: Token) -> str:
-    return "the end of the text" if token.kind == "end" else f"'{token.text}'"
+    return "the end of the text" if token.kind == "end" else f"'{quoted(token.text)}'"

@@ -3,6 +3,7 @@
 from fractions import Fraction
 
 from simc_core.errors import ParseError
+from simc_core.numbers.refusal import quoted
 from simc_core.plants.parse_values import ONE, Value
 from simc_core.plants.pasted.statements import Statement
 
@@ -28,7 +29,7 @@ def from_parameters(text: str, given: dict[str, tuple[Fraction, Statement]]) -> 
             None,
         )
         if kind is None:
-            raise _fault(text, f"'{part.name}' is not known in a list of parameters: {ENOUGH}", part)
+            raise _fault(text, f"'{quoted(part.name)}' is not known in a list of parameters: {ENOUGH}", part)
         found[kind].append(number)
     first = next(iter(given.values()))[1]
     letters = {name.lower() for name in given}
@@ -38,7 +39,7 @@ def from_parameters(text: str, given: dict[str, tuple[Fraction, Statement]]) -> 
             given[next(name for name in given if name.lower() == "tau")][1],
         )  # fmt: skip
     if len(found["gain"]) != 1 or not found["lag"] or len(found["delay"]) > 1 or len(found["damping"]) > 1:
-        raise _fault(text, f"'{first.name} = ...' alone is not a plant: {ENOUGH}", first)
+        raise _fault(text, f"'{quoted(first.name)} = ...' alone is not a plant: {ENOUGH}", first)
     if 0 in found["lag"]:
         raise _fault(text, "a lag must not be zero: leave it out", first)
     one = Fraction(1)
