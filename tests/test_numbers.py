@@ -187,7 +187,7 @@ def test_digits_are_never_dropped(text):
     if re.search("[eE/^⁻³]", text):
         return
     typed = re.sub(r"\D", "", text).strip("0")
-    assert f"{Fraction(value).limit_denominator(10**14) * 10**14}".strip("-0") == typed or len(typed) > 12
+    assert len(typed) > 12 or f"{Fraction(str(value)) * 10**14}".strip("-0") == typed
 
 
 @pytest.mark.parametrize(

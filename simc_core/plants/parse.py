@@ -104,6 +104,8 @@ class _Statements:
         if part.names_a_plant or not _only_digits(self.plain[part.start : part.stop]):
             return False
         number = number_of(self.reader(part).plant())
+        if number is None:
+            raise self.fault(f"'{quoted(part.name)}' must be one number", part)
         if part.key in ("s", "e"):
             raise self.fault(f"'{quoted(part.name)}' cannot be given a value here", part)
         if part.key in self.numbers:
@@ -134,8 +136,8 @@ class _Statements:
         for name, (number, part) in unused.items():
             if name.lower() not in DELAYS:
                 raise self.fault(
-                    f"'{quoted(part.name)}' is given a value and is not used: write theta = {float(number):g} if it is the "
-                    "dead time, or leave it out",
+                    f"'{quoted(part.name)}' is given a value and is not used: write theta = {float(number):g} if it "
+                    "is the dead time, or leave it out",
                     part,
                 )
             if value.theta:

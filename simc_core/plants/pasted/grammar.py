@@ -159,14 +159,15 @@ class Reader:
         token, before = self.token, self.last
         if token.kind == "number" and not self.is_power_of_ten():
             if before.kind == "number":
+                both = quoted(f"{before.text} {token.text}")
                 raise self.fault(
-                    f"two numbers stand side by side, '{quoted(f'{before.text} {token.text}')}': write them as one without a blank, "
-                    "or put +, - or * between them",
+                    f"two numbers stand side by side, '{both}': write them as one without a blank, or put +, - or * between them",
                     token.at,
                 )
             # 10s 1 is 10s+1 that lost its plus, as in a link where + was not written %2B
             raise self.fault(
-                f"a sign is missing before this number: write +, - or * before {quoted(token.text)}, or ^ if it is a power"
+                f"a sign is missing before this number: write +, - or * before {quoted(token.text)}, "
+                "or ^ if it is a power"
             )
         if before.kind == "list" and token.kind not in EXPONENTIALS:
             raise self.fault("after a list of coefficients write / or *")
@@ -264,8 +265,8 @@ class Reader:
         if " " in digits and "+" not in self.text and " " in self.text[token.at : token.at + len(token.text)]:
             # a link whose + was not written %2B has lost all of them: 1 200s may have been 1+200s
             raise self.fault(
-                f"'{quoted(token.text)}' can be read in two ways: write {quoted(digits.replace(' ', ''))} without a blank, "
-                "or put + between",
+                f"'{quoted(token.text)}' can be read in two ways: write {quoted(digits.replace(' ', ''))} without a "
+                "blank, or put + between",
                 token.at,
             )
         try:
