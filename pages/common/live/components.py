@@ -6,13 +6,15 @@ from pathlib import Path
 import streamlit as st
 
 from pages.common.live.modules import bundled
+from simc_core.figures import palette
 
 HERE = Path(__file__).parent
 UPLOT = HERE / "vendor" / "uplot.min.js"
 
 
 def _instrument(name: str):
-    html, css = _text(HERE / "kit" / "live.html"), _text(UPLOT.with_suffix(".css"), HERE / "kit" / "live.css")
+    html = _text(HERE / "kit" / "live.html")
+    css = palette.css_variables(".live") + _text(UPLOT.with_suffix(".css"), HERE / "kit" / "live.css")
     js = _text(UPLOT) + bundled(HERE / name / "main.js")
     return st.components.v2.component(f"simc_live_{name}", html=html, css=css, js=js)
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pages.common.live.cascade.rows import PARAMETERS, Bench, Section, course, sections
+from pages.common.live.kit.judgement import judgement
 from pages.common.live.kit.packing import figures, pack
 from pages.common.live.tuning.table import BEYOND, SHORT_OF
 from pages.common.session.design import Cascade
@@ -32,6 +33,7 @@ POINTS = 120  # after each step, closer together at first
 BEFORE = 1e-9
 CURVES = ("y1", "y2", "u")
 METRICS = ("IAE_setpoint", "IAE_d1", "IAE_d2")
+SHOWN = ("Ms_outer", "Ms_inner", "GM", "PM_deg", "delay_margin", *METRICS)
 NAMES = {
     "simc": ("τ<sub>c</sub>", "Closed-loop time constant tau_c"),
     "synthesis": ("λ", "Time constant lambda"),
@@ -120,6 +122,7 @@ def setup(of: Subject, on: Bench) -> bytes:
         "t": on.t.tolist(),
         "starts": [on.d1, on.d2],
         "omega": omega.tolist(),
+        **judgement(SHOWN),
     }
     return pack(header, _parts("Ga", of.rest.primary, omega) | _parts("Gb", of.rest.secondary, omega))
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pages.common.live.kit.judgement import judgement
 from pages.common.live.kit.packing import figures, pack
 from pages.common.session.design import Tuning
 from pages.common.studies.single import Study
@@ -39,6 +40,19 @@ FIGURES = (
     "delay_margin",
     "IAE_setpoint",
     "IAE_load",
+    "TV_setpoint",
+    "TV_load",
+    "overshoot",
+    "noise_gain",
+)
+SHOWN = (
+    "Ms",
+    "GM",
+    "PM_deg",
+    "delay_margin",
+    "IAE_setpoint",
+    "IAE_load",
+    "Mt",
     "TV_setpoint",
     "TV_load",
     "overshoot",
@@ -123,6 +137,7 @@ def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) 
         "omega": on.omega.tolist(),
         "settings": names,
         "metrics": FIGURES,
+        **judgement(SHOWN),
         "unit": unit,
         "symbol": symbol,
         "low": low,
