@@ -12,7 +12,8 @@ export function strip(element, { cells, bands, solved }, metrics, exact, why) {
       const [, tone, words] = bands.find(([upto]) => metrics[name] <= upto * (1 + solved)) ?? bands.at(-1);
       const more = peak ? `<span>${why || (Number.isNaN(metrics[name]) ? "not known yet" : words)}</span>` : "";
       const both = name === "GM" && metrics.GM_lower > 0;
-      const title = exact ? factor * metrics[name] : "interpolated while you drag; exact when you let go";
+      const value = Number.isNaN(metrics[name]) ? why || "not known" : factor * metrics[name];
+      const title = exact ? value : "interpolated while you drag; exact when you let go";
       return (
         `<div data-figure="${name}" class="${peak ? `peak ${why ? "alarm" : tone}` : ""}" title="${title}\n${meaning}">` +
         `<small>${both ? `${label}, low · high` : label}</small>` +
