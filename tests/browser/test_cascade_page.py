@@ -20,7 +20,7 @@ def peaks(page: Page) -> list[float]:
 
 
 def choose_pair(page: Page, title: str) -> None:
-    page.get_by_role("combobox").first.click()
+    page.get_by_test_id("stMain").get_by_role("combobox").first.click()
     page.get_by_role("option", name=title).click()
     idle(page)
 
