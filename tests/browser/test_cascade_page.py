@@ -46,7 +46,7 @@ def test_from_a_pair_of_the_paper_to_a_link_that_opens_the_same_cascade(server, 
         tab(page, name)
         assert page.locator(TRACEBACK).count() == 0
     tab(page, "Figures")
-    link = page.get_by_test_id("stSidebar").locator("code").inner_text()
+    link = page.get_by_test_id("stSidebar").locator("pre").inner_text()
     again = open_page(re.sub(r"^http://[^/]+", fresh_server(), link))
     tab(again, "Figures")
     assert again.locator(".strip").inner_text() == page.locator(".strip").inner_text()

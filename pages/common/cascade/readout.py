@@ -12,7 +12,7 @@ from simc_core.notation import number
 from simc_core.sensitivity.margins import Margins
 
 MORE_STYLE = """<style>
-.strip.two {grid-template-columns: 1.2fr 0.95fr 1.1fr repeat(4, 1fr); border-left: none}
+.strip.two {grid-template-columns: 1.3fr 0.95fr 1.1fr repeat(4, 1fr); border-left: none}
 .strip.two .first {grid-row: auto} .strip.two .first b {font-size: 1.6rem; line-height: 1.1}
 @media (max-width: 640px) {
   .strip.two {grid-template-columns: repeat(3, 1fr)} .strip.two .first {grid-column: 1 / -1}
