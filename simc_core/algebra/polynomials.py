@@ -66,7 +66,8 @@ def _check_sizes(name: str, coefficients: np.ndarray) -> None:
     if degree > 1 and (too_large or ratios[0] < checks.LONGEST_TIME**-degree):
         raise InvalidParameter(
             f"time constants of the {name} must be between {1 / checks.LONGEST_TIME:g} and {checks.LONGEST_TIME:g}: "
-            f"coefficients of one polynomial must be of comparable size, got {coefficients[0]:g} to {coefficients[-1]:g}"
+            "coefficients of one polynomial must be of comparable size, "
+            f"got {coefficients[0]:g} to {coefficients[-1]:g}"
         )
 
 

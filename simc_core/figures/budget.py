@@ -9,7 +9,7 @@ from simc_core.reduction.records import Reduction, Share
 # where a part went -> (words, colour, pattern): the pattern says what the colour says
 FATES = {
     "tau1": ("kept as τ₁", palette.REDUCED, ""),
-    "tau2": ("kept as τ₂", "#5FBFA0", "-"),
+    "tau2": ("kept as τ₂", palette.REDUCED_TAU2, "-"),
     "tau0": ("kept as τ₀", palette.REDUCED, ""),
     "theta": ("into θ", palette.U, "/"),
     "cancelled": ("cancelled with a zero or lag", palette.NEUTRAL, "x"),

@@ -13,8 +13,9 @@ from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.loops.loop import FrequencyResponse
 from simc_core.sensitivity.margins import Margins
+from simc_core.studies.bands import CIRCLES
 
-REFERENCES = ((1.4, 110.0), (1.6, 160.0), (2.0, 60.0))  # Ms, and where the label interrupts its circle, degrees
+REFERENCES = tuple(zip(CIRCLES, (110.0, 160.0, 60.0), strict=True))  # and where the label interrupts, degrees
 LABEL, HEIGHT = 0.14, 0.04  # half length of the interruption, and what a label covers to either side, in units of L
 FLAT = 1e-6  # |Mt - 1| below this: the circle is a line to the eye
 VIEW_X, VIEW_Y = (-2.2, 0.7), (-1.4, 0.85)

@@ -19,18 +19,20 @@ U = "#D55E00"  # input
 R = "#8A9096"  # set point
 D = "#CC79A7"  # disturbance
 REDUCED = "#009E73"  # reduced model
+REDUCED_TAU2 = "#5FBFA0"  # its second lag
 INNER = "#009E73"  # inner loop of a cascade, where no reduced model is drawn
 S = "#C77C00"  # sensitivity, its peak Ms and the circle of it
 NEUTRAL = "#8A9096"  # axes through zero, reference lines, the point -1
 GRID = "rgba(138,144,150,0.22)"
 
-# Designs set aside, first pinned first: lighter shades of the hue, and a dash of their own.
+# Designs set aside, first pinned first: shades of the hue with 3:1 on the light page and on the dark one, and a dash
+# of their own.
 PIN_DASHES = ("dash", "dot", "dashdot", "longdash")
 PIN_SHADES = {
-    Y: ("#4C9FD0", "#6FB3DB", "#8CC3E3", "#A5D0EA"),
-    U: ("#E68A4A", "#ECA06C", "#F0B38A", "#F4C4A4"),
-    S: ("#D99A3A", "#E0AC5C", "#E7BE80", "#EDCEA0"),
-    INNER: ("#45B898", "#6AC6AD", "#8AD2BE", "#A6DDCD"),
+    Y: ("#4A9BC8", "#0069A4", "#328ABC", "#187AB0"),
+    U: ("#DC7A2D", "#A54900", "#CA6A1E", "#B7590F"),
+    S: ("#CA840F", "#8D5800", "#B6750A", "#A16705"),
+    INNER: ("#18A780", "#007253", "#109671", "#088362"),
 }
 
 # The loops of a cascade: index, colour, dash.
@@ -40,8 +42,25 @@ FULL_AND_REDUCED = ((Y, "solid", 2.2), (REDUCED, "dash", 2.0))
 
 CALM, ATTENTION, ALARM = "#009E73", "#C77C00", "#C8442E"
 
+CALM_BAND, ALARM_BAND = "rgba(0,158,115,0.14)", "rgba(200,68,46,0.13)"  # behind curves
+
 TIME = "t  [time unit]"
 FREQUENCY = "ω  [rad/time unit]"
+
+
+def css_variables(selector: str) -> str:
+    """A CSS rule that gives the colours to styles and scripts of the pages, as --simc-y, --simc-y-pin-1, ...
+
+    Parameters
+    ----------
+    selector : str
+        Of the elements below which they are known.
+    """
+    names = {"y": Y, "u": U, "r": R, "d": D, "s": S, "inner": INNER, "grid": GRID}
+    names |= {"calm": CALM, "attention": ATTENTION, "alarm": ALARM, "calm-band": CALM_BAND, "alarm-band": ALARM_BAND}
+    for name, hue in (("y", Y), ("u", U), ("s", S), ("inner", INNER)):
+        names |= {f"{name}-pin-{i}": shade for i, shade in enumerate(PIN_SHADES[hue], start=1)}
+    return f"{selector} {{{' '.join(f'--simc-{name}: {color};' for name, color in names.items())}}}\n"
 
 
 def config(name: str) -> dict[str, Any]:

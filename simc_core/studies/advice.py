@@ -26,6 +26,7 @@ from simc_core.reduction.equal_peak import load_error
 from simc_core.reduction.explanation import of_orders
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import LARGEST_MS
+from simc_core.studies.bands import exceeds
 from simc_core.studies.remedies import TIGHT, calmer, filter_that_costs_little
 from simc_core.studies.tuned import Tuned
 
@@ -33,7 +34,6 @@ GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
 SLOW_INTEGRATING = 8.0  # tau_c/theta of the "moderate" choice [V06 eq. 7]; an integrating plant has no time of its own
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4
-SOLVED = 1e-6  # a loop designed for Ms = 2 has it to this
 ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
 LEVELS = ("error", "warning", "note")
 BY_MODEL = {
@@ -89,7 +89,7 @@ def not_stable(of: Tuned) -> Advice | None:
 def large_Ms(of: Tuned) -> Advice | None:
     """Ms > 2."""
     Ms, PM = of.margins.Ms, of.margins.PM_deg
-    if not Ms > LARGEST_MS * (1 + SOLVED):
+    if math.isnan(Ms) or not exceeds(Ms, LARGEST_MS):
         return None
     text = "L passes close to -1: small errors of the model can make the loop unstable."
     if PM >= GOOD_PM:

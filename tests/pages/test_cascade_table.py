@@ -25,7 +25,7 @@ def nothing() -> None: ...
 
 def made(cascade: Cascade):
     found = study(cascade)
-    return found, cascade_table.subject(found), cascade_table.bench(found)
+    return found, cascade_table.subject_of(found), cascade_table.grid_of(found)
 
 
 def cascade_of(pair: int) -> Cascade:
@@ -38,50 +38,52 @@ def cascade_of(pair: int) -> Cascade:
 
 @pytest.mark.parametrize(("pair", "loop"), [(pair, cascade_table.LOOPS[pair % 2]) for pair in PAIRS])
 def test_curves_between_rows_are_right_to_a_fifth_of_a_per_cent(pair, loop):
-    _, of, on = made(cascade_of(pair))
-    found, unsound, _ = cascade_rows.sections(of.held, loop, *cascade_table.bounds(of.rest)[loop], on, nothing)
+    _, subject, grid = made(cascade_of(pair))
+    found, unsound, _ = cascade_rows.sections(
+        subject.held, loop, *cascade_table.bounds(subject.rest)[loop], grid, nothing
+    )
     rng = np.random.default_rng([SEED, pair])
     for section in found:
         curves = np.array([row.curves for row in section.rows], dtype=np.float32).astype(float)  # as they travel
-        for x in rng.uniform(section.grid.x[0], section.grid.x[-1], SPEEDS):
-            exact = cascade_rows.course(cascade_rows.at(of.held, loop, math.exp(x)).loop, on)
+        for x in rng.uniform(section.nodes.x[0], section.nodes.x[-1], SPEEDS):
+            exact = cascade_rows.course(cascade_rows.at(subject.held, loop, math.exp(x)).loop, grid)
             for i, curve in enumerate(exact):
-                assert np.max(np.abs(read(section.grid, curves[:, i], x) - curve)) <= WORST * np.ptp(curve)
-    low, high = cascade_table.bounds(of.rest)[loop]
-    spans = [(s.grid.x[0], s.grid.x[-1]) for s in found] + [(math.log(a), math.log(b)) for a, b in unsound]
+                assert np.max(np.abs(read(section.nodes, curves[:, i], x) - curve)) <= WORST * np.ptp(curve)
+    low, high = cascade_table.bounds(subject.rest)[loop]
+    spans = [(s.nodes.x[0], s.nodes.x[-1]) for s in found] + [(math.log(a), math.log(b)) for a, b in unsound]
     assert sum(b - a for a, b in spans) == pytest.approx(math.log(high / low), abs=1e-3)
 
 
 @pytest.mark.parametrize(("pair", "loop"), [(6, "inner"), (8, "outer")])
 def test_ranges_end_where_the_verdict_changes(pair, loop):
-    _, of, on = made(cascade_of(pair))
-    low, high = cascade_table.bounds(of.rest)[loop]
-    _, unsound, _ = cascade_rows.sections(of.held, loop, low, high, on, nothing)
+    _, subject, grid = made(cascade_of(pair))
+    low, high = cascade_table.bounds(subject.rest)[loop]
+    _, unsound, _ = cascade_rows.sections(subject.held, loop, low, high, grid, nothing)
     assert unsound
     for begin, end in unsound:
         for edge, outwards in ((begin, 0.999), (end, 1.001)):
             if low * 1.001 < edge < high / 1.001:
-                assert stability(cascade_rows.at(of.held, loop, edge * outwards).loop).sound
-                assert not stability(cascade_rows.at(of.held, loop, edge / outwards).loop).sound
+                assert stability(cascade_rows.at(subject.held, loop, edge * outwards).loop).sound
+                assert not stability(cascade_rows.at(subject.held, loop, edge / outwards).loop).sound
 
 
 def test_sums_of_a_row_are_near_the_exact_metrics():
-    found, _, on = made(cascade_of(1))
+    found, _, grid = made(cascade_of(1))
     exact = found.performance
     wanted = exact.setpoint.IAE, exact.disturbance.IAE, exact.disturbance2.IAE
-    assert cascade_rows.IAE_by_sums(found.loop, float(on.t[-1])) == pytest.approx(wanted, rel=0.01)
+    assert cascade_rows.IAE_by_sums(found.loop, float(grid.t[-1])) == pytest.approx(wanted, rel=0.01)
 
 
 def test_a_table_holds_what_its_header_says():
-    _, of, on = made(Cascade())
-    header, blocks = unpacked(cascade_table.table(of, on, "inner", nothing))
+    _, subject, grid = made(Cascade())
+    header, blocks = unpacked(cascade_table.table(subject, grid, "inner", nothing))
     rows = len(header["log_tau_c"])
     assert header["held"] is None  # the outer loop follows
-    assert {blocks[name].shape for name in cascade_table.CURVES} == {(rows, len(on.t))}
+    assert {blocks[name].shape for name in cascade_table.CURVES} == {(rows, len(grid.t))}
     assert blocks["parameters"].shape == (rows, 8)
-    follows = [designed(replace(of.held, tau_c_inner=math.exp(x))).tau_c_outer for x in header["log_tau_c"]]
+    follows = [designed(replace(subject.held, tau_c_inner=math.exp(x))).tau_c_outer for x in header["log_tau_c"]]
     assert blocks["outer_speed"][:, 0] == pytest.approx(follows, rel=1e-6)
-    setup, parts = unpacked(cascade_table.setup(of, on))
+    setup, parts = unpacked(cascade_table.setup(subject, grid))
     G = Plant(2.0, 2.0, (5.0,)).response(1j * np.array(setup["omega"]))
     np.testing.assert_allclose(parts["Ga_re"][0] + 1j * parts["Ga_im"][0], G, rtol=1e-5, atol=1e-6)
 
@@ -89,10 +91,10 @@ def test_a_table_holds_what_its_header_says():
 def test_a_cascade_that_is_not_sound_has_no_numbers():
     """Gb = e^{-s}/(20 s - 1) with lambda far too small for its dead time."""
     cascade = replace(cascade_of(6), tau_c_inner=0.21, tau_c_outer=4.0)
-    found, of, on = made(cascade)
+    found, subject, grid = made(cascade)
     assert not found.sound
-    assert cascade_table.bench(found, shown=50.0).t[-1] == 50.0  # what grows does not change the axis
-    header, _ = unpacked(cascade_table.exact(of, on, found, 0))
+    assert cascade_table.grid_of(found, shown=50.0).t[-1] == 50.0  # what grows does not change the axis
+    header, _ = unpacked(cascade_table.exact(subject, grid, found, 0))
     assert set(header["metrics"].values()) == {None}
 
 
@@ -105,7 +107,7 @@ def test_a_table_can_be_left_half_way():
         if len(calls) == 10:
             raise KeyboardInterrupt
 
-    _, of, on = made(Cascade())
+    _, subject, grid = made(Cascade())
     with pytest.raises(KeyboardInterrupt):
-        cascade_table.table(of, on, "outer", pause)
+        cascade_table.table(subject, grid, "outer", pause)
     assert len(calls) == 10

@@ -41,21 +41,21 @@ def unpacked(message: bytes) -> tuple[dict, dict[str, np.ndarray]]:
 
 def made(plant: Plant, tuning: Tuning = Tuning()):  # noqa: B008
     present = study(plant, tuning)
-    of = table.subject(plant, present, "series")
-    on = table.bench(of, present)
-    return present, of, on, table.table(of, on, [("A", present)], "name")
+    subject = table.subject_of(plant, present, "series")
+    grid = table.grid_of(subject, present)
+    return present, subject, grid, table.table(subject, grid, [("A", present)], "name")
 
 
 def worst_error(plant: Plant, order: int, rng) -> float:
     """Largest error of y, u, |S| and |T| over their ranges, at six tau_c, half of them in the fastest decade."""
     present = study(plant, Tuning(order=order))
-    of = table.subject(plant, present, "series")
-    on = table.bench(of, present)
-    rows, found = table.rows(of, on)
+    subject = table.subject_of(plant, present, "series")
+    grid = table.grid_of(subject, present)
+    rows, found = table.rows(subject, grid)
     curves = [each.astype(np.float32).astype(float) for each in table.curves(found).values()]  # as they travel
     worst = 0.0
     for x in np.concatenate([rng.uniform(rows.x[0], rows.x[-1], 3), rng.uniform(rows.x[0], rows.x[0] + 2.3, 3)]):
-        y, u, re, im = table.responses(of.loop(math.exp(x)), on)
+        y, u, re, im = table.responses(subject.loop(math.exp(x)), grid)
         got_y, got_u, got_re, got_im = (read(rows, each, x) for each in curves)
         L, exact = got_re + 1j * got_im, re + 1j * im
         pairs = [(got_y, y), (got_u, u)]
@@ -78,13 +78,13 @@ def test_curves_between_rows_are_right_to_a_fifth_of_a_per_cent():
 
 def test_a_table_holds_what_its_header_says_and_pins_share_its_grid():
     plant = Plant(1.0, 3.0, (6.0, 4.0, 2.0))
-    present, of, on, message = made(plant)
+    present, subject, grid, message = made(plant)
     header, blocks = unpacked(message)
     n, points = len(header["log_tau_c"]), len(header["t"])
     assert blocks["y"].shape == blocks["u"].shape == (n, points)
     assert blocks["re"].shape == (n, len(header["omega"]))
     assert blocks["metrics"].shape == (n, len(header["metrics"]))
-    exact_header, exact = unpacked(table.exact(of, on, present, "name", 7))
+    exact_header, exact = unpacked(table.exact(subject, grid, present, "name", 7))
     assert exact_header["answers"] == 7
     assert exact_header["metrics"]["Ms"] == present.margins.Ms
     np.testing.assert_array_equal(blocks["pin_y"], exact["y"])
@@ -92,11 +92,11 @@ def test_a_table_holds_what_its_header_says_and_pins_share_its_grid():
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_figures_of_a_row_are_those_of_a_study(order):
-    _, of, on, _ = made(Plant(1.0, 3.0, (6.0, 4.0, 2.0)), Tuning(order=order, filter=0.1, b=0.7))
-    grid, found = table.rows(of, on)
-    for i in (0, len(grid.x) // 2, -1):
-        alone = study(of.plant, Tuning(order=order, filter=0.1, b=0.7, tau_c=float(grid.tau_c[i])))
-        assert table.metrics(of, found)[i] == pytest.approx([*table.judged(alone, on.omega).values()], rel=1e-7)
+    _, subject, grid, _ = made(Plant(1.0, 3.0, (6.0, 4.0, 2.0)), Tuning(order=order, filter=0.1, b=0.7))
+    nodes, found = table.rows(subject, grid)
+    for i in (0, len(nodes.x) // 2, -1):
+        alone = study(subject.plant, Tuning(order=order, filter=0.1, b=0.7, tau_c=float(nodes.tau_c[i])))
+        assert table.metrics(subject, found)[i] == pytest.approx([*table.judged(alone, grid.omega).values()], rel=1e-7)
 
 
 def test_unstable_ranges_end_where_stability_does():

@@ -26,7 +26,7 @@ STYLE = """<style>
 .diagram .wire {fill: none; stroke: currentColor; stroke-width: 1.2; opacity: 0.75}
 .diagram .head {fill: currentColor; opacity: 0.75}
 .diagram .box {fill: none; stroke: currentColor; stroke-width: 1.2}
-.diagram .outer {stroke: #0072B2; stroke-width: 2} .diagram .inner {stroke: #009E73; stroke-width: 2}
+.diagram .outer {stroke: var(--simc-y); stroke-width: 2} .diagram .inner {stroke: var(--simc-inner); stroke-width: 2}
 .diagram .name {font-weight: 600}
 @media (max-width: 640px) {.diagram .wide {display: none} .diagram .narrow {display: block}}
 </style>"""

@@ -6,13 +6,16 @@ from pathlib import Path
 import streamlit as st
 
 from pages.common.live.modules import bundled
+from pages.common.session import state
+from simc_core.figures import palette
 
 HERE = Path(__file__).parent
 UPLOT = HERE / "vendor" / "uplot.min.js"
 
 
 def _instrument(name: str):
-    html, css = _text(HERE / "kit" / "live.html"), _text(UPLOT.with_suffix(".css"), HERE / "kit" / "live.css")
+    html = _text(HERE / "kit" / "live.html")
+    css = palette.css_variables(".live") + _text(UPLOT.with_suffix(".css"), HERE / "kit" / "live.css")
     js = _text(UPLOT) + bundled(HERE / name / "main.js")
     return st.components.v2.component(f"simc_live_{name}", html=html, css=css, js=js)
 
@@ -26,13 +29,20 @@ cascade = _instrument("cascade")
 message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
 
 
-def answer_if_unheard(asked, answers: int, take: Callable[[Mapping], None]) -> None:
-    """Take a release that no callback heard, and run again.
+def show(component: Callable, key: str, data: bytes, take: Callable[[Mapping], None]) -> int:
+    """The instrument, and the release it answers next.
 
-    So it is with the first thing a page does after its server was started anew: the new session does not know the
-    component yet. answers: the last release that was taken.
+    take: does what a release asks for. It hears of it in a callback, or, where no callback heard it, here, and the
+    script runs again: so it is with the first thing a page does after its server was started anew, when the new
+    session does not know the component yet.
     """
-    release = asked.release
-    if release and int(release["n"]) != answers:
+
+    def heard(release: Mapping) -> None:
+        state.remember(f"{key}_answers", int(release["n"]))
         take(release)
+
+    asked = component(key=key, data=data, on_release_change=lambda: heard(state.widget(key)["release"]))
+    if asked.release and int(asked.release["n"]) != state.memory(f"{key}_answers", int):
+        heard(asked.release)
         st.rerun()
+    return state.memory(f"{key}_answers", int)

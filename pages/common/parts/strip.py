@@ -1,16 +1,14 @@
 """A strip of figures: one cell each, what it means and its exact value on hover; the bands of Ms."""
 
 import math
-import re
 from dataclasses import dataclass
 from html import escape
 
+from pages.common.parts.quantities import QUANTITIES
 from simc_core.figures import palette
-from simc_core.notation import number
+from simc_core.sensitivity.margins import Margins
+from simc_core.studies.bands import band_of
 
-CALM, ATTENTION = 1.6, 2.0  # upper ends of the bands of Ms
-SOLVED = 1e-6  # a loop designed for Ms = 2 has it to this
-DIGITS = 3
 STYLE = f"""<style>
 .strip {{display: grid; grid-template-columns: 1.5fr repeat(5, 1fr); font-variant-numeric: tabular-nums;
   border: 1px solid {palette.GRID}; border-radius: 4px; overflow: hidden}}
@@ -23,8 +21,9 @@ STYLE = f"""<style>
   justify-content: center}}
 .strip .first b {{font-size: 2rem; color: var(--band)}}
 .strip .first span {{font-weight: 600; font-size: 0.85rem}}
-.strip.calm {{--band: {palette.CALM}}} .strip.attention {{--band: {palette.ATTENTION}}}
-.strip.alarm {{--band: {palette.ALARM}}}
+.strip.calm, .strip .calm {{--band: {palette.CALM}}}
+.strip .attention {{--band: {palette.ATTENTION}}}
+.strip.alarm, .strip .alarm {{--band: {palette.ALARM}}}
 @media (max-width: 640px) {{
   .strip {{grid-template-columns: 1fr 1fr}}
   .strip .first {{grid-row: auto; grid-column: 1 / -1}}
@@ -32,65 +31,54 @@ STYLE = f"""<style>
 </style>"""
 
 
-MEANINGS = {
-    "Ms": "Ms = max |1/(1+L)|: 1/Ms is the smallest distance of L from −1; below 1.7 is usual, 2 the limit [SK03]",
-    "Msa": "Msa = max |1/(1+La)|, La with the inner loop closed: 1/Msa is the smallest distance of La from −1",
-    "Msb": "Msb = max |1/(1+Lb)| of the inner loop: 1/Msb is the smallest distance of Lb from −1",
-    "Mt": "Mt = max |L/(1+L)|: how much a set point is amplified at worst",
-    "Gain": "factor on the plant gain at which the loop becomes unstable",
-    "GM": "factors on the plant gain, downwards and upwards, at which the loop becomes unstable",
-    "Phase": "phase the loop may lose at |L| = 1 before it becomes unstable",
-    "Delay": "dead time that may be added before the loop becomes unstable, in your time unit",
-    "IAE": "integral of |r − y| after a unit step, over all time",
-    "TV": "total variation of u, the wear of the actuator, after a unit step",
-    "Overshoot": "of y beyond a unit step of the set point",
-    "Peak": "how far y goes at most after a unit step of the load at the plant input",
-    "Settling": "time until y stays within 2 % of the step",
-}
-
-
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """One cell. text: as shown.   exact: on hover.   more: a word beside it."""
+    """One cell. text: as shown.   exact: on hover, with what it means."""
 
     label: str
     text: str
     exact: str
-    more: str = ""
+    meaning: str
 
 
-def band_of(Ms: float) -> tuple[str, str]:
-    """Name of the band of Ms, and what it means in words."""
-    if Ms <= CALM * (1 + SOLVED):
-        return "calm", "calm: robust (≤ 1.6)"
-    if Ms <= ATTENTION * (1 + SOLVED):
-        return "attention", "attention: little to spare (≤ 2.0)"
-    return "alarm", "alarm: too close to −1 (> 2.0)"
+def cell_html(cell: Reading) -> str:
+    """One cell of the strip."""
+    return f'<div title="{hover(cell)}"><small>{escape(cell.label)}</small><b>{cell.text}</b></div>'
+
+
+def peak_html(cell: Reading, Ms: float) -> str:
+    """The cell of an Ms, larger, with its band in words and colour."""
+    band = band_of(Ms)
+    return (
+        f'<div class="first {band.tone}" title="{hover(cell)}"><small>{escape(cell.label)}</small><b>{cell.text}</b>'
+        f"<span>{band.words}</span></div>"
+    )
 
 
 def hover(cell: Reading) -> str:
     """The exact value, and what it is."""
-    meaning = MEANINGS[re.match(r"\w+", cell.label)[0]]
-    return escape(f"{cell.exact}\n{meaning}")
+    return escape(f"{cell.exact}\n{cell.meaning}")
 
 
-def cell_html(cell: Reading) -> str:
-    label = escape(cell.label)
-    return f'<div title="{hover(cell)}"><small>{label}</small><b>{cell.text}</b> <i>{cell.more}</i></div>'
-
-
-def reading(label: str, value: float, more: str = "") -> Reading:
+def reading(name: str, value: float, label: str = "") -> Reading:
+    """The cell of a quantity; label: where it is not the quantity's own."""
+    quantity = QUANTITIES[name]
+    exact = f"{quantity.factor * value:.10g}"
     if math.isinf(value):
-        return Reading(label, "∞", "infinite: no limit", "no limit")
+        exact = "infinite: no limit"
     if math.isnan(value):
-        return Reading(label, "–", "not known: too near its stability limit, the loop does not come to rest in reach")
-    return Reading(label, number(value, DIGITS), f"{value:.10g}", more)
+        exact = "not known: too near its stability limit, the loop does not come to rest in reach"
+    return Reading(label or quantity.label, quantity.text(value), exact, quantity.meaning)
 
 
-def pair(label: str, first: float, second: float) -> Reading:
-    text = f"{number(first, DIGITS)} · {number(second, DIGITS)}"
-    return Reading(label, text, f"{first:.10g} · {second:.10g}")
+def pair(label: str, names: tuple[str, str], values: tuple[float, float]) -> Reading:
+    """Two quantities in one cell."""
+    first, second = (reading(name, value) for name, value in zip(names, values, strict=True))
+    return Reading(label, f"{first.text} · {second.text}", f"{first.exact} · {second.exact}", second.meaning)
 
 
-def percent(label: str, value: float) -> Reading:
-    return Reading(label, number(100 * value, DIGITS), f"{100 * value:.10g} %", "%")
+def gain_margin(judged: Margins) -> Reading:
+    """The upper limit, and the lower one where there is one."""
+    if judged.GM_lower > 0:
+        return pair("Gain margin, low · high", ("GM_lower", "GM"), (judged.GM_lower, judged.GM))
+    return reading("GM", judged.GM)

@@ -9,6 +9,7 @@ from pages.common.parts.foreign_text import exact, told
 from pages.common.session import project, state
 from pages.common.session.design import Design
 from pages.common.shell.loops_menu import loops_menu
+from simc_core.figures import palette
 from simc_core.notation import latex
 from simc_core.plants.plant import Plant
 
@@ -29,6 +30,9 @@ STYLE = """<style>
 /* A transfer function wider than its place scrolls there, and leaves the page as it is. */
 [data-testid="stMain"] :is(p, .katex-display):has(> .katex) {overflow-x: auto; overflow-y: hidden}
 .st-key-line [data-testid="stElementContainer"] {max-width: 100%}
+/* Figures: words and numbers in the colour of the text, on both themes; Streamlit's grey is too weak for small type. */
+.js-plotly-plot :is(.xtick, .ytick, .xtitle, .ytitle, .textpoint, .legend) text,
+.js-plotly-plot :is(text.xtitle, text.ytitle) {fill: var(--st-text-color) !important}
 </style>"""
 CHAIN = ("plant", "half_rule", "tuning", "cascade")
 
@@ -44,7 +48,7 @@ def go(place: str) -> None:
 def show(place: str) -> Design:
     """Page settings, the line on top, notices and the sidebar. `place` is a key of TITLES. Returns the design."""
     st.set_page_config(page_title=f"{TITLES[place]} · SIMC", page_icon="🎚️", layout="wide")
-    st.html(STYLE)
+    st.html(f"<style>{palette.css_variables(':root')}</style>{STYLE}")
     design = state.begin()
     with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
         if place == "cascade":

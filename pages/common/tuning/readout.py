@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages.common.parts.strip import STYLE, Reading, band_of, cell_html, hover, pair, percent, reading
+from pages.common.parts.strip import STYLE, Reading, cell_html, gain_margin, pair, peak_html, reading
 from pages.common.studies.single import Study
 
 
@@ -16,30 +16,27 @@ def strip_html(study: Study) -> str:
     if not study.stable:
         return (
             '<div class="strip alarm" role="status"><div class="first" style="grid-column: 1 / -1">'
-            "<b>Loop not stable</b><span>no margins and no metrics: they would mean nothing</span></div></div>"
+            "<b>Not stable</b><span>margins and IAE do not exist</span></div></div>"
         )
-    band, words = band_of(study.margins.Ms)
-    Ms = reading("Ms, peak of |S|", study.margins.Ms)
-    first = (
-        f'<div class="first" title="{hover(Ms)}"><small>{Ms.label}</small><b>{Ms.text}</b><span>{words}</span></div>'
-    )
+    first = peak_html(reading("Ms", study.margins.Ms), study.margins.Ms)
     cells = "".join(cell_html(cell) for cell in readings(study))
-    return f'<div class="strip {band}" role="status" aria-label="Figures that decide">{first}{cells}</div>'
+    return f'<div class="strip" role="status" aria-label="Figures that decide">{first}{cells}</div>'
 
 
 def readings(study: Study) -> list[Reading]:
     """All cells after Ms, row by row. The loop must be stable."""
     judged, metrics = study.margins, study.performance
-    lower = judged.GM_lower > 0
+    TV = metrics.setpoint.TV, metrics.disturbance.TV
+    settling = metrics.setpoint.settling_time, metrics.disturbance.settling_time
     return [
-        pair("GM lower · upper", judged.GM_lower, judged.GM) if lower else reading("Gain margin GM", judged.GM),
-        reading("Phase margin PM", judged.PM_deg, "°"),
-        reading("Delay margin", judged.delay_margin),
-        reading("IAE set point", metrics.setpoint.IAE),
-        reading("IAE load", metrics.disturbance.IAE),
-        reading("Mt, peak of |T|", judged.Mt),
-        pair("TV set point · load", metrics.setpoint.TV, metrics.disturbance.TV),
-        percent("Overshoot", metrics.setpoint.overshoot),
-        pair("Settling set point · load", metrics.setpoint.settling_time, metrics.disturbance.settling_time),
-        reading("Peak of y, unit load", metrics.disturbance.peak),
+        gain_margin(judged),
+        reading("PM_deg", judged.PM_deg),
+        reading("delay_margin", judged.delay_margin),
+        reading("IAE_setpoint", metrics.setpoint.IAE),
+        reading("IAE_load", metrics.disturbance.IAE),
+        reading("Mt", judged.Mt),
+        pair("TV set point · load", ("TV_setpoint", "TV_load"), TV),
+        reading("overshoot", metrics.setpoint.overshoot),
+        pair("Settling set point · load", ("settling_setpoint", "settling_load"), settling),
+        reading("peak_load", metrics.disturbance.peak),
     ]

@@ -161,7 +161,8 @@ class Reader:
             if before.kind == "number":
                 both = quoted(f"{before.text} {token.text}")
                 raise self.fault(
-                    f"two numbers stand side by side, '{both}': write them as one without a blank, or put +, - or * between them",
+                    f"two numbers stand side by side, '{both}': write them as one without a blank, "
+                    "or put +, - or * between them",
                     token.at,
                 )
             # 10s 1 is 10s+1 that lost its plus, as in a link where + was not written %2B

@@ -7,17 +7,7 @@ import { between, mix, stencil } from "../kit/table.js";
 import { loopsOf, marginsOf } from "./loops.js";
 import { cascadePanels } from "./panels.js";
 
-const FIGURES = [
-  ["Ms_outer", "Ms of the outer loop", true],
-  ["Ms_inner", "Ms of the inner loop", true],
-  ["GM", "GM, outer"],
-  ["PM_deg", "PM, outer °"],
-  ["delay_margin", "Delay m., outer"],
-  ["IAE_setpoint", "IAE r"],
-  ["IAE_d1", "IAE d1"],
-  ["IAE_d2", "IAE d2"],
-];
-const NOTHING = Object.fromEntries(FIGURES.map(([name]) => [name, NaN]));
+const nothing = ({ cells }) => Object.fromEntries(cells.map(({ name }) => [name, NaN]));
 const alike = (a, b) => (a === null || b === null ? a === b : Math.abs(a / b - 1) < 1e-9);
 
 export class Cascade extends Instrument {
@@ -25,7 +15,6 @@ export class Cascade extends Instrument {
     super(root, {
       sliders: ["inner", "outer"].map((name) => ({ name, symbol: name, label: name })),
       views: [["responses", "Responses"]],
-      figures: FIGURES,
       hint: "Keys: arrows, Home, End move the slider, Tab to the other · space what if · L or Esc back",
     });
     root.classList.add("two");
@@ -104,13 +93,13 @@ export class Cascade extends Instrument {
     if (exact?.setup === setup.id && this.sliders.every((slider) => alike(slider.tau_c, exact[slider.name])))
       return this.readExact(exact);
     const table = this.tableOf(this.slider);
-    if (!table) return { exact: false, curves: false, settings: {}, metrics: NOTHING, why: "" };
+    if (!table) return { exact: false, curves: false, settings: {}, metrics: nothing(setup), why: "" };
     const tau_c = this.slider.tau_c;
     if (table.unstable.some(([from, to]) => tau_c >= from && tau_c <= to))
       return {
         exact: false,
         settings: {},
-        metrics: NOTHING,
+        metrics: nothing(setup),
         why: table.inner_stable ? "Cascade not stable" : "Not stable: one of the loops",
       };
     const x = Math.log(tau_c),
@@ -155,7 +144,13 @@ export class Cascade extends Instrument {
 
   figures({ exact, settings, metrics, why, curves }) {
     for (const slider of this.sliders) slider.tell(settings[slider.name] ?? {}, exact);
-    strip(this.root.querySelector(".strip"), this.cells, metrics, exact, why && "not stable: no margins");
+    strip(
+      this.root.querySelector(".strip"),
+      this.setup,
+      metrics,
+      exact,
+      why && "Not stable: margins and IAE do not exist",
+    );
     this.root.classList.toggle("waits", curves === false);
   }
 

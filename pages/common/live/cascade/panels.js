@@ -17,7 +17,7 @@ import {
 import { round, text } from "../kit/format.js";
 import { sensitivities } from "../kit/table.js";
 
-const INNER = "#009E73";
+const INNER = "--simc-inner";
 const INNER_DASH = [8, 4];
 const LEAVES = 100; // what grows is drawn until it is this large, in steps of r
 
@@ -84,7 +84,7 @@ export function cascadePanels(setup, scale) {
         { name: "La", color: Y, ring: S_LINE },
       ],
     },
-    omega,
+    setup,
     scale,
   );
   const sensitivity = magnitudePanel(
@@ -119,7 +119,7 @@ export function cascadePanels(setup, scale) {
       output.show([step, ...loads, over(y2, why), over(y1, why)], [], why);
       input.show([...loads, over(u, why)], [], why);
       const { inner, outer } = loops ?? { inner: EMPTY, outer: EMPTY };
-      nyquist.show(...nyquistCurves([metrics.Ms_inner, metrics.Ms_outer], [], [inner, outer]), why);
+      nyquist.show(...nyquistCurves(setup.circles, [metrics.Ms_inner, metrics.Ms_outer], [], [inner, outer]), why);
       const S = ({ x, y }) => ({ x: x.length ? omega : [], y: sensitivities(x, y).S });
       sensitivity.show([unity(omega), S(inner), S(outer)], [], why);
     },

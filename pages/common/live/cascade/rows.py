@@ -31,7 +31,7 @@ PARAMETERS = ("Kp", "Ki", "Kd", "tau_F")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Bench:
+class Grid:
     """The instants at which all curves are computed, and when d1 and d2 begin."""
 
     t: np.ndarray
@@ -52,7 +52,7 @@ class Row:
 class Section:
     """A range of speeds in which the cascade is sound, and its rows."""
 
-    grid: Rows
+    nodes: Rows
     rows: list[Row]
 
 
@@ -62,7 +62,7 @@ def at(held: Cascade, loop: str, speed: float) -> CascadeDesign:
 
 
 def sections(
-    held: Cascade, loop: str, low: float, high: float, on: Bench, pause: Callable[[], None]
+    held: Cascade, loop: str, low: float, high: float, grid: Grid, pause: Callable[[], None]
 ) -> tuple[list[Section], list[tuple[float, float]], bool]:
     """Rows; ranges that are not sound; whether there the inner loop is always stable. pause: called now and then."""
     seen: list[bool] = []
@@ -76,7 +76,7 @@ def sections(
     found, unsound = [], []
     for (a, b), sound in _ranges(state, low, high):
         if sound:
-            found.append(_section(held, loop, a, b, on, pause))
+            found.append(_section(held, loop, a, b, grid, pause))
         elif unsound and unsound[-1][1] >= a * (1 - 2 * NEAR):
             unsound[-1] = (unsound[-1][0], b)
         else:
@@ -84,9 +84,9 @@ def sections(
     return found, unsound, all(seen)
 
 
-def course(loop: CascadeLoop, on: Bench) -> np.ndarray:
+def course(loop: CascadeLoop, grid: Grid) -> np.ndarray:
     """y1, y2, u after steps of r, d1 and d2, shape (3, points). Raises SimcError where it cannot be computed."""
-    scenario = Scenario(disturbance_time=on.d1, disturbance2_time=on.d2, t_end=float(on.t[-1]), t=on.t)
+    scenario = Scenario(disturbance_time=grid.d1, disturbance2_time=grid.d2, t_end=float(grid.t[-1]), t=grid.t)
     found = simulate(loop, scenario)
     return np.array([found.y, found.y2, found.u])
 
@@ -108,7 +108,7 @@ def IAE_by_sums(loop: CascadeLoop, end: float) -> tuple[float, float, float]:
     return tuple(found)
 
 
-def _section(held: Cascade, loop: str, low: float, high: float, on: Bench, pause: Callable[[], None]) -> Section:
+def _section(held: Cascade, loop: str, low: float, high: float, grid: Grid, pause: Callable[[], None]) -> Section:
     made: dict[float, Row] = {}
 
     def compute(speeds: np.ndarray) -> list[np.ndarray]:
@@ -116,13 +116,13 @@ def _section(held: Cascade, loop: str, low: float, high: float, on: Bench, pause
         for speed in speeds.tolist():
             pause()
             design = at(held, loop, speed)
-            curves = course(design.loop, on)
-            made[_key(speed)] = Row(design, curves, IAE_by_sums(design.loop, float(on.t[-1])))
+            curves = course(design.loop, grid)
+            made[_key(speed)] = Row(design, curves, IAE_by_sums(design.loop, float(grid.t[-1])))
             found.append(curves)
         return list(np.moveaxis(np.array(found), 1, 0))
 
-    grid, _ = refined(first_rows(low, high, [], PER_DECADE), compute, most=MOST_ROWS)
-    return Section(grid, [made[_key(speed)] for speed in grid.tau_c.tolist()])
+    nodes, _ = refined(first_rows(low, high, [], PER_DECADE), compute, most=MOST_ROWS)
+    return Section(nodes, [made[_key(speed)] for speed in nodes.tau_c.tolist()])
 
 
 def _key(speed: float) -> float:

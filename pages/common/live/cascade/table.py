@@ -6,16 +6,18 @@ exact   one design
 table   over the speed of one loop, the other one held
 """
 
-import hashlib
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pages.common.live.cascade.rows import PARAMETERS, Bench, Section, course, sections
+from pages.common.live.cascade.rows import PARAMETERS, Grid, Section, course, sections
+from pages.common.live.kit.held import kept_end
+from pages.common.live.kit.instants import instants
+from pages.common.live.kit.judgement import judgement
+from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
-from pages.common.live.tuning.table import BEYOND, SHORT_OF
 from pages.common.session.design import Cascade
 from pages.common.studies.cascade import CascadeStudy, designed, scale
 from simc_core.cascade.design import CascadeDesign
@@ -29,9 +31,9 @@ from simc_core.simulation.simulate_nested import horizon
 LOOPS = ("inner", "outer")
 SHORTEST, LONGEST = 0.2, 10.0  # on a slider, of tight tau_c, or of the dead time in the loop
 POINTS = 120  # after each step, closer together at first
-BEFORE = 1e-9
 CURVES = ("y1", "y2", "u")
 METRICS = ("IAE_setpoint", "IAE_d1", "IAE_d2")
+SHOWN = ("Ms_outer", "Ms_inner", "GM", "PM_deg", "delay_margin", *METRICS)
 NAMES = {
     "simc": ("τ<sub>c</sub>", "Closed-loop time constant tau_c"),
     "synthesis": ("λ", "Time constant lambda"),
@@ -57,7 +59,7 @@ class Subject:
         return self.inner if loop == "outer" else None if self.follows else self.outer
 
 
-def subject(study: CascadeStudy) -> Subject:
+def subject_of(study: CascadeStudy) -> Subject:
     """The cascade with its speeds in place of what they were found by."""
     each, (inner, outer) = study.cascade, study.speeds
     follows = each.method == "simc" and each.tau_c_outer is None and each.Ms_outer is None
@@ -65,18 +67,17 @@ def subject(study: CascadeStudy) -> Subject:
     return Subject(replace(each, **fixed), inner, outer, follows)
 
 
-def bench(study: CascadeStudy, shown: float | None = None) -> Bench:
+def grid_of(study: CascadeStudy, shown: float | None = None) -> Grid:
     """Instants. shown: the end of what is on the screen, kept as long as the present design suits it, sound or not."""
     wanted = 3 * horizon(study.loop.outer_loop)
-    end = shown if shown and (not study.sound or SHORT_OF <= wanted / shown <= BEYOND) else wanted
+    end = shown if shown and not study.sound else kept_end(wanted, shown)
     part = end / 3
     starts = [0.0, part, 2 * part]
     thetas = study.loop.primary.theta, study.loop.secondary.theta
     delays = [i * thetas[0] + j * thetas[1] for i in range(3) for j in range(4)]
-    breaks = np.array([start + delay for start in starts for delay in delays])
-    breaks = breaks[(breaks > 0) & (breaks < end)]
+    breaks = [start + delay for start in starts for delay in delays]
     even = [start + part * np.linspace(0.0, 1.0, POINTS, endpoint=False) ** 2 for start in starts]
-    return Bench(np.unique(np.concatenate([*even, breaks, breaks * (1 - BEFORE), [end]])), *starts[1:])
+    return Grid(instants(np.concatenate(even), breaks, end), *starts[1:])
 
 
 def bounds(rest: Cascade) -> dict[str, tuple[float, float]]:
@@ -90,41 +91,37 @@ def bounds(rest: Cascade) -> dict[str, tuple[float, float]]:
     return {loop: (SHORTEST * unit, LONGEST * unit) for loop, unit in zip(LOOPS, units, strict=True)}
 
 
-def name_of(*what) -> str:
-    """Same name, same message."""
-    return hashlib.sha256(repr(what).encode()).hexdigest()[:16]
-
-
-def setup_name(of: Subject, on: Bench) -> str:
+def setup_name(subject: Subject, grid: Grid) -> str:
     """Of what tables and exact numbers share."""
-    return name_of(of.rest, float(on.t[-1]))
+    return name_of(subject.rest, float(grid.t[-1]))
 
 
-def table_name(of: Subject, on: Bench, loop: str) -> str:
+def table_name(subject: Subject, grid: Grid, loop: str) -> str:
     """Of the table for the slider of `loop`."""
-    return name_of(setup_name(of, on), loop, of.other(loop))
+    return name_of(setup_name(subject, grid), loop, subject.other(loop))
 
 
-def setup(of: Subject, on: Bench) -> bytes:
+def setup(subject: Subject, grid: Grid) -> bytes:
     """What stays while the sliders move."""
-    limits, omega = bounds(of.rest), _omega(of.rest)
-    symbol, words = NAMES[of.rest.method]
+    limits, omega = bounds(subject.rest), _omega(subject.rest)
+    symbol, words = NAMES[subject.rest.method]
     sliders = {
         loop: {"low": low, "high": high, "symbol": f"{symbol} {loop}", "label": f"{words} of the {loop} loop"}
         for loop, (low, high) in limits.items()
     }
     header = {
         "kind": "setup",
-        "id": setup_name(of, on),
+        "id": setup_name(subject, grid),
         "sliders": sliders,
-        "t": on.t.tolist(),
-        "starts": [on.d1, on.d2],
+        "t": grid.t.tolist(),
+        "starts": [grid.d1, grid.d2],
         "omega": omega.tolist(),
+        **judgement(SHOWN),
     }
-    return pack(header, _parts("Ga", of.rest.primary, omega) | _parts("Gb", of.rest.secondary, omega))
+    return pack(header, _parts("Ga", subject.rest.primary, omega) | _parts("Gb", subject.rest.secondary, omega))
 
 
-def exact(of: Subject, on: Bench, study: CascadeStudy, answers: int) -> bytes:
+def exact(subject: Subject, grid: Grid, study: CascadeStudy, answers: int) -> bytes:
     """The present design without interpolation; answers: the release it answers.
 
     Without curves where it is not stable and too wild to be computed.
@@ -132,10 +129,10 @@ def exact(of: Subject, on: Bench, study: CascadeStudy, answers: int) -> bytes:
     header = {
         "kind": "exact",
         "to": "cascade",
-        "setup": setup_name(of, on),
-        "inner": of.inner,
-        "outer": of.outer,
-        "follows": of.follows,
+        "setup": setup_name(subject, grid),
+        "inner": subject.inner,
+        "outer": subject.outer,
+        "follows": subject.follows,
         "answers": answers,
         "sound": study.sound,
         "inner_stable": study.stability.inner.verdict == "stable",
@@ -144,24 +141,24 @@ def exact(of: Subject, on: Bench, study: CascadeStudy, answers: int) -> bytes:
     }
     blocks = {"parameters": _parameters(study.design)}
     try:
-        blocks |= dict(zip(CURVES, course(study.loop, on), strict=True))
+        blocks |= dict(zip(CURVES, course(study.loop, grid), strict=True))
     except SimcError:
         if study.sound:
             raise
     return pack(header, blocks)
 
 
-def table(of: Subject, on: Bench, loop: str, pause: Callable[[], None]) -> bytes:
+def table(subject: Subject, grid: Grid, loop: str, pause: Callable[[], None]) -> bytes:
     """The table for the slider of `loop`. pause: called between rows, where a newer wish may end the work."""
-    found, unsound, inner_stable = sections(of.held, loop, *bounds(of.rest)[loop], on, pause)
+    found, unsound, inner_stable = sections(subject.held, loop, *bounds(subject.rest)[loop], grid, pause)
     rows = [row for each in found for row in each.rows]
     x, breaks = _joined(found)
     header = {
         "kind": "table",
         "to": "cascade",
-        "setup": setup_name(of, on),
+        "setup": setup_name(subject, grid),
         "loop": loop,
-        "held": of.other(loop),
+        "held": subject.other(loop),
         "log_tau_c": x,
         "breaks": breaks,
         "unstable": unsound,
@@ -184,8 +181,8 @@ def _joined(found: list[Section]) -> tuple[list[float], list[int]]:
     """Rows of all sections one after the other; nothing is read between two sections."""
     x, breaks = [], []
     for each in found:
-        breaks += [len(x) + at for at in each.grid.breaks]
-        x += each.grid.x.tolist()
+        breaks += [len(x) + at for at in each.nodes.breaks]
+        x += each.nodes.x.tolist()
     return x, breaks
 
 

@@ -3,35 +3,30 @@
 import { nearest, text } from "./format.js";
 import { ALARM, Panel } from "./panel.js";
 
-export const Y = "#0072B2";
-export const U = "#D55E00";
-export const R = "#8A9096";
-export const D = "#CC79A7";
-export const S_LINE = "#C77C00";
+// Colours are CSS variables, written by simc_core/figures/palette.py.
+export const Y = "--simc-y";
+export const U = "--simc-u";
+export const R = "--simc-r";
+export const D = "--simc-d";
+export const S_LINE = "--simc-s";
 const PIN_DASHES = [
   [8, 4],
   [2, 3],
   [8, 3, 2, 3],
   [14, 4],
 ];
-export const SHADES = {
-  [Y]: ["#4C9FD0", "#6FB3DB", "#8CC3E3", "#A5D0EA"],
-  [U]: ["#E68A4A", "#ECA06C", "#F0B38A", "#F4C4A4"],
-  [S_LINE]: ["#D99A3A", "#E0AC5C", "#E7BE80", "#EDCEA0"],
-};
-const CIRCLES = [
-  [1.4, 0.61],
-  [1.6, 1.4],
-  [2, 2.27],
-]; // Ms, and where its label sits on the circle
+const LABELS_AT = [0.61, 1.4, 2.27]; // on the circles of Ms, rad
 const AXES = [
   { x: [-1e3, 1e3], y: [0, 0] },
   { x: [0, 0], y: [-1e3, 1e3] },
 ];
 export const EMPTY = { x: [], y: [] };
 
+/** Of the design pinned at place i, 0 to 3. */
+export const shadeOf = (color, i) => `${color}-pin-${i + 1}`;
+
 export const pinned = (color, pins) =>
-  pins.map((_, i) => ({ color: SHADES[color][i], dash: PIN_DASHES[i], width: 1.6 }));
+  pins.map((_, i) => ({ color: shadeOf(color, i), dash: PIN_DASHES[i], width: 1.6 }));
 
 /** What the last curves of the panel, called `names`, are at the instant or frequency nearest to the cursor. */
 const tellNearest = (axis, names) => (panel, at) => {
@@ -63,7 +58,7 @@ export function timePanel({ names, ...spec }, end, scale) {
 }
 
 /** loops [{name, color, dash, ring}]: L of each, and the colour of the circle that it touches; behind: more styles. */
-export function nyquistPanel({ title, loops, legend, behind = [] }, omega, scale) {
+export function nyquistPanel({ title, loops, legend, behind = [] }, { omega, circles }, scale) {
   const tell = (panel, x, y) => {
     let best = null;
     for (const [n, { x: re, y: im }] of panel.curves.slice(-loops.length).entries())
@@ -82,13 +77,13 @@ export function nyquistPanel({ title, loops, legend, behind = [] }, omega, scale
       short: "Nyquist",
       square: true,
       tell,
-      legend: [...legend, { text: "Ms 1.4, 1.6, 2.0", color: R, dash: true }],
+      legend: [...legend, { text: `Ms ${circles.map((Ms) => Ms.toFixed(1)).join(", ")}`, color: R, dash: true }],
       x: { label: "Re L", limits: () => [-2.4, 0.9] },
       y: { label: "Im L", limits: () => [-1.75, 0.8] },
       styles: [
         { color: R, width: 1 },
         { color: R, width: 1 },
-        ...CIRCLES.map(() => ({ color: R, dash: [2, 3], width: 1 })),
+        ...circles.map(() => ({ color: R, dash: [2, 3], width: 1 })),
         ...loops.map(({ ring, dash }) => ({ color: ring, width: 1.6, dash })),
         ...behind,
         ...loops.map(({ color, dash }) => ({ color, dash, width: 2.2 })),
@@ -99,17 +94,17 @@ export function nyquistPanel({ title, loops, legend, behind = [] }, omega, scale
 }
 
 /** Curves and marks for a nyquistPanel: peaks Ms of the loops, what is behind, L of the loops. */
-export function nyquistCurves(peaks, behind, loops) {
+export function nyquistCurves(circles, peaks, behind, loops) {
   const rings = peaks.map((Ms) => (Number.isFinite(Ms) ? circle(Ms) : EMPTY));
-  const labels = CIRCLES.map(([Ms, at]) => ({
-    x: -1 + Math.cos(at) / Ms,
-    y: Math.sin(at) / Ms,
+  const labels = circles.map((Ms, i) => ({
+    x: -1 + Math.cos(LABELS_AT[i]) / Ms,
+    y: Math.sin(LABELS_AT[i]) / Ms,
     label: Ms.toFixed(1),
-    align: at > 1.5 ? "right" : "left",
+    align: LABELS_AT[i] > 1.5 ? "right" : "left",
   }));
   const point = { x: -1, y: 0, color: ALARM, label: "−1", cross: true, align: "right" };
   return [
-    [...AXES, ...CIRCLES.map(([Ms]) => circle(Ms)), ...rings, ...behind, ...loops],
+    [...AXES, ...circles.map(circle), ...rings, ...behind, ...loops],
     [...labels, point],
   ];
 }

@@ -10,9 +10,8 @@ const PERIOD = 8000; // ms for tau_c to go up and down once
 const PATIENCE = 3000; // ms after which an answer that did not come is not waited for any more
 
 export class Instrument {
-  constructor(root, { sliders, views, figures, hint }) {
+  constructor(root, { sliders, views, hint }) {
     this.root = root;
-    this.cells = figures;
     this.waiting = 0;
     this.views = {};
     const find = (selector) => root.querySelector(selector);
@@ -90,9 +89,10 @@ export class Instrument {
     const color = style.getPropertyValue("--st-text-color").trim() || style.color;
     this.theme = {
       text: color,
-      grid: "rgba(138,144,150,0.22)",
+      grid: style.getPropertyValue("--simc-grid"),
       font: style.fontFamily,
-      page: style.getPropertyValue("--st-background-color").trim() || "#fff",
+      ink: (name) => style.getPropertyValue(name).trim(),
+      page: style.getPropertyValue("--st-background-color").trim() || "white",
     };
     const zooms = Object.fromEntries(
       Object.values(this.views)

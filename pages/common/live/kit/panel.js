@@ -2,7 +2,7 @@
 
 import { button, isDecade, STEPS, text } from "./format.js";
 
-export const ALARM = "#C8442E";
+export const ALARM = "--simc-alarm";
 
 export class Panel {
   /**
@@ -53,7 +53,7 @@ export class Panel {
       series: [
         {},
         ...spec.styles.map((style, i) => ({
-          stroke: style.color,
+          stroke: theme.ink(style.color),
           width: (style.width ?? 2) * scale,
           dash: style.dash?.map((d) => d * scale),
           alpha: style.alpha ?? 1,
@@ -103,7 +103,9 @@ export class Panel {
     return (this.spec.bands?.(this) ?? []).map(({ axis: side, from: low, to: high, color }) => {
       const [a, b] = [low, high].map((v) => u.valToPos(v, side, canvas));
       const [at, span] = [Math.min(a, b), Math.abs(b - a)];
-      return side === "y" ? [from.left, at, from.width, span, color] : [at, from.top, span, from.height, color];
+      return side === "y"
+        ? [from.left, at, from.width, span, this.theme.ink(color)]
+        : [at, from.top, span, from.height, this.theme.ink(color)];
     });
   }
 
@@ -131,7 +133,7 @@ export class Panel {
         b = u.valToPos(y, "y", true);
       const inside = a >= bbox.left && a <= bbox.left + bbox.width && b >= bbox.top && b <= bbox.top + bbox.height;
       if (!inside) continue;
-      ctx.strokeStyle = ctx.fillStyle = color ?? theme.text;
+      ctx.strokeStyle = ctx.fillStyle = color ? theme.ink(color) : theme.text;
       ctx.lineWidth = 2 * ratio;
       ctx.beginPath();
       if (cross) {
@@ -164,7 +166,7 @@ export class Panel {
       const width = ctx.measureText(this.note).width + 16 * ratio;
       ctx.fillStyle = theme.page;
       ctx.fillRect(bbox.left + (bbox.width - width) / 2, bbox.top + 4 * ratio, width, 19 * ratio);
-      ctx.fillStyle = ALARM;
+      ctx.fillStyle = theme.ink(ALARM);
       ctx.fillText(this.note, bbox.left + bbox.width / 2, bbox.top + 18 * ratio);
     }
     ctx.restore();
@@ -248,7 +250,7 @@ export function trace(u, { x, y }, pen, canvas) {
 
 function swatch({ text: label, color, dash }) {
   const item = document.createElement("i");
-  item.style.setProperty("--line", color);
+  item.style.setProperty("--line", `var(${color})`);
   item.className = dash ? "dashed" : "";
   item.textContent = label;
   return item;

@@ -2,23 +2,22 @@
 
 import { text } from "./format.js";
 
-const BANDS = [
-  [1.6, "calm", "calm: robust (≤ 1.6)"],
-  [2, "attention", "attention: little to spare (≤ 2.0)"],
-  [Infinity, "alarm", "alarm: too close to −1 (> 2.0)"],
-];
-const SOLVED = 1e-6; // a loop designed for Ms = 2 has it to this
+const MOVING = 3; // digits while the slider moves, 4 at rest
 
-/** cells: [name, words, peak]; peak: it is an Ms, shown with its band.   why: in words, why there are no numbers. */
-export function strip(element, cells, metrics, exact, why) {
+/** judgement: {cells, bands, solved}, see judgement.py.   why: in words, why there are no numbers. */
+export function strip(element, { cells, bands, solved }, metrics, exact, why) {
+  const shown = (name, factor) => text(factor * metrics[name], exact ? 4 : MOVING);
   element.innerHTML = cells
-    .map(([name, label, peak]) => {
-      const value = label.endsWith("%") ? 100 * metrics[name] : metrics[name];
-      const [, band, words] = BANDS.find(([limit]) => value <= limit * (1 + SOLVED)) ?? BANDS[2];
-      const more = peak ? `<span>${why || (Number.isNaN(value) ? "not known yet" : words)}</span>` : "";
+    .map(({ name, label, meaning, factor, peak }) => {
+      const [, tone, words] = bands.find(([upto]) => metrics[name] <= upto * (1 + solved)) ?? bands.at(-1);
+      const more = peak ? `<span>${why || (Number.isNaN(metrics[name]) ? "not known yet" : words)}</span>` : "";
+      const both = name === "GM" && metrics.GM_lower > 0;
+      const value = Number.isNaN(metrics[name]) ? why || "not known" : factor * metrics[name];
+      const title = exact ? value : "interpolated while you drag; exact when you let go";
       return (
-        `<div data-figure="${name}" class="${peak ? `peak ${why ? "alarm" : band}` : ""}" title="${exact ? value : "read from the table; exact when released"}">` +
-        `<small>${label}</small><b>${text(value, exact ? 4 : 3)}</b>${more}</div>`
+        `<div data-figure="${name}" class="${peak ? `peak ${why ? "alarm" : tone}` : ""}" title="${title}\n${meaning}">` +
+        `<small>${both ? `${label}, low · high` : label}</small>` +
+        `<b>${both ? `${shown("GM_lower", 1)} · ` : ""}${shown(name, factor)}</b>${more}</div>`
       );
     })
     .join("");

@@ -62,7 +62,7 @@ export function svgPanel(panel, left, top, head, id) {
     );
   const curves = panel.curves.map((curve, i) => {
     const { color, width: line = 2, dash } = spec.styles[i];
-    return `<path class="curve" d="${trace(u, curve, new SvgPen(), false).parts.join("")}" stroke="${color}" stroke-width="${line * scale}"${dash ? ` stroke-dasharray="${dash.map((d) => d * scale)}"` : ""}/>`;
+    return `<path class="curve" d="${trace(u, curve, new SvgPen(), false).parts.join("")}" stroke="${theme.ink(color)}" stroke-width="${line * scale}"${dash ? ` stroke-dasharray="${dash.map((d) => d * scale)}"` : ""}/>`;
   });
   out.push(
     `<g transform="translate(${place(x0)} ${place(y0)})"><g clip-path="url(#${id})">${shades.join("")}<path d="${grid.join("")}" stroke="${theme.grid}"/>`,
@@ -73,12 +73,12 @@ export function svgPanel(panel, left, top, head, id) {
 }
 
 /** Title and legend above a panel. */
-function svgHead({ spec, scale }, left, head) {
+function svgHead({ spec, scale, theme }, left, head) {
   const out = [svgText(left, head, spec.title, { weight: 600, size: 12 * scale })];
   let x = left + (spec.title.length * 6.6 + 14) * scale;
   for (const { text: words, color, dash } of spec.legend ?? []) {
     out.push(
-      `<path d="M${place(x)} ${place(head - 4 * scale)}h${18 * scale}" stroke="${color}" stroke-width="${2 * scale}"${dash ? ` stroke-dasharray="${5 * scale} ${3 * scale}"` : ""}/>`,
+      `<path d="M${place(x)} ${place(head - 4 * scale)}h${18 * scale}" stroke="${theme.ink(color)}" stroke-width="${2 * scale}"${dash ? ` stroke-dasharray="${5 * scale} ${3 * scale}"` : ""}/>`,
     );
     out.push(svgText(x + 23 * scale, head, words, { size: 11 * scale }));
     x += (words.length * 6 + 36) * scale;
@@ -87,7 +87,7 @@ function svgHead({ spec, scale }, left, head) {
 }
 
 function svgMarks(panel, width, height, size) {
-  const { chart: u, scale } = panel;
+  const { chart: u, scale, theme } = panel;
   const out = [];
   for (const { x, y, color, label, cross, align, below } of panel.marks) {
     const a = u.valToPos(x, "x"),
@@ -96,9 +96,10 @@ function svgMarks(panel, width, height, size) {
     if (!(a >= 0 && a <= width && b >= 0 && b <= height)) continue;
     if (cross)
       out.push(
-        `<path d="M${place(a - r)} ${place(b)}h${2 * r}M${place(a)} ${place(b - r)}v${2 * r}" stroke="${color}" stroke-width="${2 * scale}"/>`,
+        `<path d="M${place(a - r)} ${place(b)}h${2 * r}M${place(a)} ${place(b - r)}v${2 * r}" stroke="${theme.ink(color)}" stroke-width="${2 * scale}"/>`,
       );
-    else if (color) out.push(`<circle cx="${place(a)}" cy="${place(b)}" r="${4.5 * scale}" fill="${color}"/>`);
+    else if (color)
+      out.push(`<circle cx="${place(a)}" cy="${place(b)}" r="${4.5 * scale}" fill="${theme.ink(color)}"/>`);
     if (label)
       out.push(
         svgText(
@@ -111,7 +112,12 @@ function svgMarks(panel, width, height, size) {
   }
   if (panel.note)
     out.push(
-      svgText(width / 2, 18 * scale, panel.note, { anchor: "middle", weight: 600, size: 13 * scale, color: ALARM }),
+      svgText(width / 2, 18 * scale, panel.note, {
+        anchor: "middle",
+        weight: 600,
+        size: 13 * scale,
+        color: theme.ink(ALARM),
+      }),
     );
   return out.join("");
 }

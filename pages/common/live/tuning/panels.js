@@ -68,7 +68,7 @@ export function responsePanels(table, scale) {
         { text: "Ms circle", color: S_LINE },
       ],
     },
-    omega,
+    table,
     scale,
   );
   const sensitivity = magnitudePanel(
@@ -108,6 +108,7 @@ export function responsePanels(table, scale) {
       input.show([...pu.map(over), over(u)], [], note);
       nyquist.show(
         ...nyquistCurves(
+          table.circles,
           [stable ? metrics.Ms : NaN],
           pre.map((x, i) => ({ x, y: pim[i] })),
           [{ x: re, y: im }],

@@ -1,12 +1,15 @@
 """What the instrument is sent: a table over tau_c, and the exact numbers of one design. Pure: no streamlit."""
 
-import hashlib
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pages.common.live.kit.held import kept_end
+from pages.common.live.kit.instants import instants
+from pages.common.live.kit.judgement import judgement
+from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.session.design import Tuning
 from pages.common.studies.single import Study
@@ -26,8 +29,6 @@ SHORTEST, LONGEST = 0.1, 100.0  # of tau_c over theta, on the slider
 POINTS = 300
 LOAD_AT = 0.5  # of the horizon
 JUMPS = 12  # instants k theta after each step at which curves may break
-BEFORE = 1e-9  # relative: the left-hand side of a jump
-SHORT_OF, BEYOND = 0.35, 1.25  # of the horizon on the screen: a design that needs as much is still well shown on it
 BISECTIONS = 30
 CURVES = ("y", "u", "re", "im")
 FIGURES = (
@@ -44,11 +45,24 @@ FIGURES = (
     "overshoot",
     "noise_gain",
 )
+SHOWN = (
+    "Ms",
+    "GM",
+    "PM_deg",
+    "delay_margin",
+    "IAE_setpoint",
+    "IAE_load",
+    "Mt",
+    "TV_setpoint",
+    "TV_load",
+    "overshoot",
+    "noise_gain",
+)
 SWEPT = (*MARGINS[4:], *MARGINS[:4], *METRICS)  # where a Sweep has the first of them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Bench:
+class Grid:
     """The instants and frequencies everything is computed at, so that table, pins and exact curves share them."""
 
     t: np.ndarray
@@ -73,31 +87,29 @@ class Subject:
         """The loop round the full plant."""
         return Loop(self.plant, self.controller(tau_c))
 
-    def swept(self, tau_c: np.ndarray, on: "Bench") -> Sweep:
+    def swept(self, tau_c: np.ndarray, grid: "Grid") -> Sweep:
         """Everything at all tau_c."""
         b, ratio = self.tuning.b, self.tuning.filter
-        return sweep(self.plant, self.model, tau_c, on.t, on.omega, b, ratio, on.load)
+        return sweep(self.plant, self.model, tau_c, grid.t, grid.omega, b, ratio, grid.load)
 
 
-def subject(plant: Plant, present: Study, form: str) -> Subject:
+def subject_of(plant: Plant, present: Study, form: str) -> Subject:
     """The subject of the study; a form that does not exist for this controller gives way to the parallel one."""
     if not present.controller.has_form(form):
         form = "parallel"
     return Subject(plant, present.model, replace(present.tuning, tau_c=None), form)
 
 
-def bench(of: Subject, present: Study, shown: float | None = None) -> Bench:
+def grid_of(subject: Subject, present: Study, shown: float | None = None) -> Grid:
     """Instants and frequencies. shown: the horizon on the screen, kept as long as the present design suits it.
 
     The frequencies are those of one reference design, so that they do not change with tau_c.
     """
-    wanted = 2 * settling_horizon(present.loop)
-    end = shown if shown and SHORT_OF <= wanted / shown <= BEYOND else wanted
-    load, theta = LOAD_AT * end, of.plant.theta
-    breaks = np.array([start + k * theta for start in (0.0, load) for k in range(JUMPS + 1)])
-    breaks = breaks[(breaks > 0) & (breaks < end)]
-    t = np.unique(np.concatenate([np.linspace(0.0, end, POINTS + 1), breaks, breaks * (1 - BEFORE)]))
-    return Bench(t, load, omega_grid([of.loop(bounds(of.model)[2]).L]))
+    end = kept_end(2 * settling_horizon(present.loop), shown)
+    load, theta = LOAD_AT * end, subject.plant.theta
+    breaks = [start + k * theta for start in (0.0, load) for k in range(JUMPS + 1)]
+    t = instants(np.linspace(0.0, end, POINTS + 1), breaks, end)
+    return Grid(t, load, omega_grid([subject.loop(bounds(subject.model)[2]).L]))
 
 
 def bounds(model: Model) -> tuple[float, float, float, str]:
@@ -108,57 +120,58 @@ def bounds(model: Model) -> tuple[float, float, float, str]:
     return SHORTEST * unit, high, unit, "θ" if model.theta else ""
 
 
-def table(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]], name: str) -> bytes:
+def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name: str) -> bytes:
     """The table as bytes, under its name."""
-    low, high, unit, symbol = bounds(of.model)
-    grid, found = rows(of, on)
-    names = list(found.controllers[0].in_form(of.form).settings)
+    low, high, unit, symbol = bounds(subject.model)
+    nodes, found = rows(subject, grid)
+    names = list(found.controllers[0].in_form(subject.form).settings)
     header = {
         "kind": "table",
         "id": name,
-        "log_tau_c": grid.x.tolist(),
-        "breaks": grid.breaks,
-        "t": on.t.tolist(),
-        "load": on.load,
-        "omega": on.omega.tolist(),
+        "log_tau_c": nodes.x.tolist(),
+        "breaks": nodes.breaks,
+        "t": grid.t.tolist(),
+        "load": grid.load,
+        "omega": grid.omega.tolist(),
         "settings": names,
         "metrics": FIGURES,
+        **judgement(SHOWN),
         "unit": unit,
         "symbol": symbol,
         "low": low,
         "high": high,
-        "fixed": isinstance(of.model, UnstableDelay),
+        "fixed": isinstance(subject.model, UnstableDelay),
         "unstable": unstable_ranges(
-            grid.tau_c, found.stable, lambda each: stability(of.loop(each)).verdict == "stable"
+            nodes.tau_c, found.stable, lambda each: stability(subject.loop(each)).verdict == "stable"
         ),
-        "presets": list(tau_c_presets(of.model).items()),
-        "pins": [{"name": letter, "metrics": figures(judged(each, on.omega))} for letter, each in pins],
+        "presets": list(tau_c_presets(subject.model).items()),
+        "pins": [{"name": letter, "metrics": figures(judged(each, grid.omega))} for letter, each in pins],
     }
     blocks = curves(found)
     for field in ("y", "u"):
         header[f"{field}_cap"] = cap(blocks[field][found.stable], 1.0)
-    blocks["settings"] = np.array([list(each.in_form(of.form).settings.values()) for each in found.controllers])
-    blocks["metrics"] = metrics(of, found)
+    blocks["settings"] = np.array([list(each.in_form(subject.form).settings.values()) for each in found.controllers])
+    blocks["metrics"] = metrics(subject, found)
     if pins:
-        pinned = zip(*[responses(each.loop, on) for _, each in pins], strict=True)
+        pinned = zip(*[responses(each.loop, grid) for _, each in pins], strict=True)
         blocks |= {f"pin_{field}": np.array(rows) for field, rows in zip(CURVES, pinned, strict=True)}
     return pack(header, blocks)
 
 
-def rows(of: Subject, on: Bench) -> tuple[Rows, Sweep]:
+def rows(subject: Subject, grid: Grid) -> tuple[Rows, Sweep]:
     """Rows close enough for reading between them, and everything there."""
-    low, high, *_ = bounds(of.model)
-    if isinstance(of.model, UnstableDelay):  # the rule knows one tau_c: two rows of the same
-        grid = Rows(np.log([0.99, 1.01]) + math.log(of.model.theta), (0, 1))
-        return grid, of.swept(np.full(2, of.model.theta), on)
+    low, high, *_ = bounds(subject.model)
+    if isinstance(subject.model, UnstableDelay):  # the rule knows one tau_c: two rows of the same
+        nodes = Rows(np.log([0.99, 1.01]) + math.log(subject.model.theta), (0, 1))
+        return nodes, subject.swept(np.full(2, subject.model.theta), grid)
 
     def compute(tau_c: np.ndarray) -> list[np.ndarray]:
-        controllers = [of.controller(each) for each in tau_c.tolist()]
-        y, u = time_curves(of.plant, controllers, on.t, on.load).sum(axis=2).transpose(1, 0, 2)
+        controllers = [subject.controller(each) for each in tau_c.tolist()]
+        y, u = time_curves(subject.plant, controllers, grid.t, grid.load).sum(axis=2).transpose(1, 0, 2)
         return [y, u]
 
-    grid, _ = refined(first_rows(low, high, kinks(of.model)), compute)
-    return grid, of.swept(grid.tau_c, on)
+    nodes, _ = refined(first_rows(low, high, kinks(subject.model)), compute)
+    return nodes, subject.swept(nodes.tau_c, grid)
 
 
 def curves(found: Sweep) -> dict[str, np.ndarray]:
@@ -167,16 +180,16 @@ def curves(found: Sweep) -> dict[str, np.ndarray]:
     return dict(zip(CURVES, (y, u, found.L.real, found.L.imag), strict=True))
 
 
-def metrics(of: Subject, found: Sweep) -> np.ndarray:
+def metrics(subject: Subject, found: Sweep) -> np.ndarray:
     """FIGURES of all rows, (rows, figures)."""
     values = {name: getattr(found, of_sweep) for name, of_sweep in zip(FIGURES, SWEPT, strict=False)}
-    G = of.plant.response(1j * found.omega)
+    G = subject.plant.response(1j * found.omega)
     noise = [noise_gain(L, G, each) for L, each in zip(found.L, found.controllers, strict=True)]
     values["noise_gain"] = np.where(found.stable, noise, np.nan)
     return np.array([values[name] for name in FIGURES]).T
 
 
-def exact(of: Subject, on: Bench, present: Study, name: str, answers: int) -> bytes:
+def exact(subject: Subject, grid: Grid, present: Study, name: str, answers: int) -> bytes:
     """The present design without interpolation. name: of the table it belongs to; answers: the release it answers."""
     header = {
         "kind": "exact",
@@ -185,16 +198,16 @@ def exact(of: Subject, on: Bench, present: Study, name: str, answers: int) -> by
         "tau_c": present.tau_c,
         "answers": answers,
         "stable": present.stable,
-        "settings": present.controller.in_form(of.form).settings,
-        "metrics": figures(judged(present, on.omega)),
+        "settings": present.controller.in_form(subject.form).settings,
+        "metrics": figures(judged(present, grid.omega)),
     }
-    return pack(header, dict(zip(CURVES, responses(present.loop, on), strict=True)))
+    return pack(header, dict(zip(CURVES, responses(present.loop, grid), strict=True)))
 
 
-def responses(loop: Loop, on: Bench) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def responses(loop: Loop, grid: Grid) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """y and u at the instants, Re L and Im L at the frequencies."""
-    course = simulate(loop, Scenario(disturbance_time=on.load, t_end=float(on.t[-1]), t=on.t))
-    L = loop.L(1j * on.omega)
+    course = simulate(loop, Scenario(disturbance_time=grid.load, t_end=float(grid.t[-1]), t=grid.t))
+    L = loop.L(1j * grid.omega)
     return course.y, course.u, L.real, L.imag
 
 
@@ -251,7 +264,7 @@ def cap(responses: np.ndarray, room: float) -> tuple[float, float]:
     return (low - room * (high - low), high + room * (high - low))
 
 
-def name_of(of: Subject, on: Bench, pins: Sequence[tuple[str, Study]]) -> str:
-    """Same name, same table."""
-    what = (of, float(on.t[-1]), len(on.omega), float(on.omega[0]), float(on.omega[-1]), [p.tuning for _, p in pins])
-    return hashlib.sha256(repr(what).encode()).hexdigest()[:16]
+def table_name(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]]) -> str:
+    """Of the table: same name, same table."""
+    ends = float(grid.t[-1]), len(grid.omega), float(grid.omega[0]), float(grid.omega[-1])
+    return name_of(subject, *ends, [(each.tuning, each.controller) for _, each in pins])

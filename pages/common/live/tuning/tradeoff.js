@@ -1,13 +1,13 @@
 // The trade-off view: what tau_c buys and what it costs, over tau_c/theta, with the present point on every curve.
 
-import { S_LINE, SHADES, U, Y } from "../kit/curves.js";
+import { S_LINE, shadeOf, U, Y } from "../kit/curves.js";
 import { nearest, round, text } from "../kit/format.js";
 import { Panel } from "../kit/panel.js";
 
 const LETTERS = "ABCD";
-const CALM_BAND = "rgba(0, 158, 115, 0.14)",
-  UNSTABLE_BAND = "rgba(200, 68, 46, 0.13)";
-// key, title, log, curves [metric, words, colour], bands over y
+const CALM_BAND = "--simc-calm-band";
+const UNSTABLE_BAND = "--simc-alarm-band";
+// key, title, log, curves [metric, words, colour]
 const TRADE_OFFS = [
   [
     "peaks",
@@ -17,11 +17,10 @@ const TRADE_OFFS = [
       ["Ms", "Ms", S_LINE],
       ["Mt", "Mt", Y],
     ],
-    [[1.4, 1.7]],
   ],
   ["gain", "Gain margin", true, [["GM", "GM", Y]]],
   ["phase", "Phase margin [°]", false, [["PM_deg", "PM", Y]]],
-  ["delay", "Delay margin [time]", true, [["delay_margin", "DM", Y]]],
+  ["delay", "Delay margin [time]", true, [["delay_margin", "delay margin", Y]]],
   [
     "iae",
     "IAE",
@@ -42,7 +41,7 @@ const TRADE_OFFS = [
   ],
   [
     "overshoot",
-    "Overshoot, noise",
+    "Overshoot and noise gain",
     false,
     [
       ["overshoot", "y", Y],
@@ -55,6 +54,7 @@ const DIRECT = "overshoot"; // no room for a legend beside its title: names stan
 
 export function tradeOffPanels(table, scale) {
   const { unit, symbol } = table;
+  const [robust] = table.bands[0];
   const ratios = table.log_tau_c.map((v) => Math.exp(v) / unit);
   const column = (name) => table.columns[name];
   const known = (values) => values.filter((v) => Number.isFinite(v) && v > 0);
@@ -66,7 +66,7 @@ export function tradeOffPanels(table, scale) {
       to: to / unit,
       color: UNSTABLE_BAND,
     }));
-  const list = TRADE_OFFS.map(([key, title, log, curves, bands = []]) => {
+  const list = TRADE_OFFS.map(([key, title, log, curves]) => {
     const limits = () => {
       const values = curves.flatMap(([name]) => known(column(name)));
       if (!values.length) return [0.1, 10];
@@ -86,7 +86,10 @@ export function tradeOffPanels(table, scale) {
             ? []
             : curves.map(([, words, color], i) => ({ text: words, color, dash: i > 0 })),
         styles: curves.map(([, , color], i) => ({ color, width: 2.2, dash: i ? [8, 4] : undefined })),
-        bands: () => [...bands.map(([from, to]) => ({ axis: "y", from, to, color: CALM_BAND })), ...stability()],
+        bands: () => [
+          ...(key === "peaks" ? [{ axis: "y", from: 1, to: robust, color: CALM_BAND }] : []),
+          ...stability(),
+        ],
         tell: (_panel, at) => {
           const i = nearest(ratios, at);
           return [
@@ -101,7 +104,7 @@ export function tradeOffPanels(table, scale) {
   const price = new Panel(
     {
       key: "price",
-      title: "Speed, robustness",
+      title: "Speed against robustness",
       x: { label: "Ms", limits: () => [1, 3] },
       y: {
         label: "IAE load",
@@ -112,7 +115,7 @@ export function tradeOffPanels(table, scale) {
         },
       },
       styles: [{ color: Y, width: 2.2 }],
-      bands: () => [{ axis: "x", from: 1.4, to: 1.7, color: CALM_BAND }],
+      bands: () => [{ axis: "x", from: 1, to: robust, color: CALM_BAND }],
       tell: (_panel, at) => {
         const Ms = column("Ms");
         let i = 0;
@@ -145,7 +148,7 @@ export function tradeOffPanels(table, scale) {
       const pins = table.pins.map((pin, i) => ({
         x: pin.metrics.Ms,
         y: pin.metrics.IAE_load,
-        color: SHADES[U][i],
+        color: shadeOf(U, i),
         label: LETTERS[i],
       }));
       price.show(

@@ -7,20 +7,6 @@ import { between, mix, stencil } from "../kit/table.js";
 import { responsePanels } from "./panels.js";
 import { tradeOffPanels } from "./tradeoff.js";
 
-const FIGURES = [
-  ["Ms", "Ms, peak of |S|", true],
-  ["GM", "Gain margin"],
-  ["PM_deg", "Phase margin °"],
-  ["delay_margin", "Delay margin"],
-  ["IAE_setpoint", "IAE set point"],
-  ["IAE_load", "IAE load"],
-  ["Mt", "Mt, peak of |T|"],
-  ["TV_setpoint", "TV set point"],
-  ["TV_load", "TV load"],
-  ["overshoot", "Overshoot %"],
-  ["noise_gain", "Noise gain"],
-];
-
 export class Tuning extends Instrument {
   constructor(root) {
     super(root, {
@@ -29,7 +15,6 @@ export class Tuning extends Instrument {
         ["responses", "Responses"],
         ["tradeoff", "Trade-off"],
       ],
-      figures: FIGURES,
       hint: "Keys: arrows, Home, End move τc · 1, 2, … presets · space what if · L or Esc back",
     });
     const wanted = document.createElement("label");
@@ -131,7 +116,13 @@ export class Tuning extends Instrument {
 
   figures({ exact, stable, settings, metrics }) {
     this.slider.tell(settings, exact);
-    strip(this.root.querySelector(".strip"), this.cells, metrics, exact, stable ? "" : "loop not stable: no margins");
+    strip(
+      this.root.querySelector(".strip"),
+      this.table,
+      metrics,
+      exact,
+      stable ? "" : "Not stable: margins and IAE do not exist",
+    );
   }
 
   title() {
