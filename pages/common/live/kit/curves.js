@@ -30,8 +30,11 @@ const AXES = [
 ];
 export const EMPTY = { x: [], y: [] };
 
+/** The colour of the i-th design behind the present one. */
+export const shade = (color, i) => SHADES[color][i % SHADES[color].length];
+
 export const pinned = (color, pins) =>
-  pins.map((_, i) => ({ color: SHADES[color][i], dash: PIN_DASHES[i], width: 1.6 }));
+  pins.map((_, i) => ({ color: shade(color, i), dash: PIN_DASHES[i % PIN_DASHES.length], width: 1.6 }));
 
 /** What the last curves of the panel, called `names`, are at the instant or frequency nearest to the cursor. */
 const tellNearest = (axis, names) => (panel, at) => {

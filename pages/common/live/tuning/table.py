@@ -10,6 +10,7 @@ import numpy as np
 from pages.common.live.kit.packing import figures, pack
 from pages.common.session.design import Tuning
 from pages.common.studies.single import Study
+from simc_core.algebra.factors import Factored
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller
 from simc_core.loops.frequency_grid import omega_grid
@@ -91,13 +92,18 @@ def bench(of: Subject, present: Study, shown: float | None = None) -> Bench:
 
     The frequencies are those of one reference design, so that they do not change with tau_c.
     """
-    wanted = 2 * settling_horizon(present.loop)
+    return bench_of(present.loop, [of.loop(bounds(of.model)[2]).L], shown)
+
+
+def bench_of(loop: Loop, curves: Sequence[Factored], shown: float | None = None) -> Bench:
+    """Instants that suit a loop, and frequencies for these L."""
+    wanted = 2 * settling_horizon(loop)
     end = shown if shown and SHORT_OF <= wanted / shown <= BEYOND else wanted
-    load, theta = LOAD_AT * end, of.plant.theta
+    load, theta = LOAD_AT * end, loop.plant.theta
     breaks = np.array([start + k * theta for start in (0.0, load) for k in range(JUMPS + 1)])
     breaks = breaks[(breaks > 0) & (breaks < end)]
     t = np.unique(np.concatenate([np.linspace(0.0, end, POINTS + 1), breaks, breaks * (1 - BEFORE)]))
-    return Bench(t, load, omega_grid([of.loop(bounds(of.model)[2]).L]))
+    return Bench(t, load, omega_grid(curves))
 
 
 def bounds(model: Model) -> tuple[float, float, float, str]:

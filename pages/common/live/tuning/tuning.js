@@ -1,25 +1,12 @@
 // The instrument of the tuning page: one slider, four panels, the trade-off, presets, the smallest tau_c for an Ms.
 
+import { FIGURES } from "../kit/figures.js";
 import { button, numbers, text } from "../kit/format.js";
 import { Instrument } from "../kit/instrument.js";
 import { strip } from "../kit/strip.js";
 import { between, mix, stencil } from "../kit/table.js";
 import { responsePanels } from "./panels.js";
 import { tradeOffPanels } from "./tradeoff.js";
-
-const FIGURES = [
-  ["Ms", "Ms, peak of |S|", true],
-  ["GM", "Gain margin"],
-  ["PM_deg", "Phase margin °"],
-  ["delay_margin", "Delay margin"],
-  ["IAE_setpoint", "IAE set point"],
-  ["IAE_load", "IAE load"],
-  ["Mt", "Mt, peak of |T|"],
-  ["TV_setpoint", "TV set point"],
-  ["TV_load", "TV load"],
-  ["overshoot", "Overshoot %"],
-  ["noise_gain", "Noise gain"],
-];
 
 export class Tuning extends Instrument {
   constructor(root) {
