@@ -22,11 +22,11 @@ const AXES = [
 ];
 export const EMPTY = { x: [], y: [] };
 
-/** Of the design pinned at place i, 0 to 3. */
-export const shadeOf = (color, i) => `${color}-pin-${i + 1}`;
+/** Of the i-th design behind the present one; there are four shades. */
+export const shadeOf = (color, i) => `${color}-pin-${(i % 4) + 1}`;
 
 export const pinned = (color, pins) =>
-  pins.map((_, i) => ({ color: shadeOf(color, i), dash: PIN_DASHES[i], width: 1.6 }));
+  pins.map((_, i) => ({ color: shadeOf(color, i), dash: PIN_DASHES[i % PIN_DASHES.length], width: 1.6 }));
 
 /** What the last curves of the panel, called `names`, are at the instant or frequency nearest to the cursor. */
 const tellNearest = (axis, names) => (panel, at) => {

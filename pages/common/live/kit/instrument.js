@@ -64,7 +64,7 @@ export class Instrument {
   }
 
   show() {
-    if (!this.furnished || !this.slider.tau_c) return;
+    if (!this.furnished || this.slider.tau_c === undefined) return;
     const now = this.reading();
     if (now.curves !== false) this.views[this.view]?.draw(now);
     this.figures(now);

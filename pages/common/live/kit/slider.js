@@ -36,9 +36,12 @@ export class Slider {
     this.handle.setAttribute("aria-label", label);
   }
 
-  /** low, high of tau_c; unit: the length of 1 on the scale, and its symbol; fixed: no choice of tau_c. */
-  range({ low, high, unit, symbol, fixed }) {
-    Object.assign(this, { low, high, unit, symbol, fixed });
+  /**
+   * low, high of tau_c; unit: the length of 1 on the scale, and its symbol; fixed: no choice of tau_c.
+   * zero: the left end means 0.
+   */
+  range({ low, high, unit, symbol, fixed, zero }) {
+    Object.assign(this, { low, high, unit, symbol, fixed, zero });
     this.handle.setAttribute("aria-valuemin", low);
     this.handle.setAttribute("aria-valuemax", high);
     this.handle.setAttribute("aria-disabled", String(fixed));
@@ -68,7 +71,7 @@ export class Slider {
   }
 
   share(tau_c) {
-    const s = Math.log(tau_c / this.low) / Math.log(this.high / this.low);
+    const s = Math.log(Math.max(tau_c, this.low) / this.low) / Math.log(this.high / this.low);
     return Math.min(1, Math.max(0, s));
   }
 
@@ -90,8 +93,9 @@ export class Slider {
   }
 
   move(tau_c) {
-    const ratio = Number((Math.min(this.high, Math.max(this.low, tau_c)) / this.unit).toPrecision(3));
-    this.place(ratio * this.unit);
+    const within = Math.min(this.high, Math.max(this.low, tau_c));
+    const ratio = Number((within / this.unit).toPrecision(3));
+    this.place(this.zero && within === this.low ? 0 : ratio * this.unit);
     this.moved(this);
   }
 
@@ -117,13 +121,14 @@ export class Slider {
   key(event) {
     if (this.fixed) return;
     const step = 10 ** (event.shiftKey ? 1 / 200 : 1 / 40);
+    const at = Math.max(this.tau_c, this.low);
     const to = {
-      ArrowRight: this.tau_c * step,
-      ArrowUp: this.tau_c * step,
-      ArrowLeft: this.tau_c / step,
-      ArrowDown: this.tau_c / step,
-      PageUp: this.tau_c * 2,
-      PageDown: this.tau_c / 2,
+      ArrowRight: at * step,
+      ArrowUp: at * step,
+      ArrowLeft: at / step,
+      ArrowDown: at / step,
+      PageUp: at * 2,
+      PageDown: at / 2,
       Home: this.low,
       End: this.high,
     }[event.key];

@@ -9,6 +9,7 @@ import {
   pinned,
   R,
   S_LINE,
+  shadeOf,
   timePanel,
   U,
   unity,
@@ -33,6 +34,7 @@ export function responsePanels(table, scale) {
         { text: "y", color: Y },
         { text: "r", color: R, dash: true },
         { text: `load d at ${text(table.load, 3)}`, color: D, dash: true },
+        ...pins.map(({ name }, i) => ({ text: name, color: shadeOf(Y, i), dash: true })),
       ],
       y: { label: "y", limits: (p) => within(extent(p, window, [0, 1.05]), table.y_cap) },
       styles: [
@@ -102,10 +104,10 @@ export function responsePanels(table, scale) {
 
   return {
     panels: [output, input, nyquist, sensitivity],
-    draw({ y, u, re, im, metrics, stable }) {
+    draw({ y, u, re, im, metrics, stable, at = t, frequencies = omega }) {
       const note = stable ? "" : "Loop not stable";
-      output.show([step, load, ...py.map(over), over(y)], [], note);
-      input.show([...pu.map(over), over(u)], [], note);
+      output.show([step, load, ...py.map(over), { x: at, y }], [], note);
+      input.show([...pu.map(over), { x: at, y: u }], [], note);
       nyquist.show(
         ...nyquistCurves(
           table.circles,
@@ -116,7 +118,8 @@ export function responsePanels(table, scale) {
         note,
       );
       const { S, T } = sensitivities(re, im);
-      sensitivity.show([unity(omega), ...ps.map((p) => on(p.S)), ...ps.map((p) => on(p.T)), on(T), on(S)], [], note);
+      const now = [T, S].map((curve) => ({ x: frequencies, y: curve }));
+      sensitivity.show([unity(omega), ...ps.map((p) => on(p.S)), ...ps.map((p) => on(p.T)), ...now], [], note);
     },
   };
 }

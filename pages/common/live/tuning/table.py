@@ -13,6 +13,7 @@ from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.session.design import Tuning
 from pages.common.studies.single import Study
+from simc_core.algebra.factors import Factored
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller
 from simc_core.loops.frequency_grid import omega_grid
@@ -105,11 +106,15 @@ def grid_of(subject: Subject, present: Study, shown: float | None = None) -> Gri
 
     The frequencies are those of one reference design, so that they do not change with tau_c.
     """
-    end = kept_end(2 * settling_horizon(present.loop), shown)
-    load, theta = LOAD_AT * end, subject.plant.theta
+    return grid_around(present.loop, [subject.loop(bounds(subject.model)[2]).L], shown)
+
+
+def grid_around(loop: Loop, curves: Sequence[Factored], shown: float | None = None) -> Grid:
+    """Instants that suit a loop, and frequencies that suit these L."""
+    end = kept_end(2 * settling_horizon(loop), shown)
+    load, theta = LOAD_AT * end, loop.plant.theta
     breaks = [start + k * theta for start in (0.0, load) for k in range(JUMPS + 1)]
-    t = instants(np.linspace(0.0, end, POINTS + 1), breaks, end)
-    return Grid(t, load, omega_grid([subject.loop(bounds(subject.model)[2]).L]))
+    return Grid(instants(np.linspace(0.0, end, POINTS + 1), breaks, end), load, omega_grid(curves))
 
 
 def bounds(model: Model) -> tuple[float, float, float, str]:

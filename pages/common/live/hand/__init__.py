@@ -1,0 +1,1 @@
+"""The live instrument of settings and plants that are dragged by hand."""

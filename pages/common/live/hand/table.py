@@ -1,0 +1,179 @@
+"""What the instrument of the hand is sent: what may be turned, and the exact picture of where it stands. Pure.
+
+Knobs hold sizes without sign: a negative gain keeps its sign while it is dragged.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pages.common.live.kit.judgement import judgement
+from pages.common.live.kit.naming import name_of
+from pages.common.live.kit.packing import figures, pack
+from pages.common.live.tuning.table import CURVES, SHOWN, Grid, cap, judged, responses
+from pages.common.studies.single import Study, study_of_settings
+from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
+from simc_core.errors import InvalidParameter
+from simc_core.loops.loop import Loop
+from simc_core.plants.plant import Plant
+
+REACH = 10.0  # a knob goes to so many times its value, and to its inverse
+CELLS = tuple(name for name in SHOWN if name != "noise_gain")
+LEAST_D = 0.01  # of tau_I or theta: the lowest tau_D above 0 on the knob
+NAMES = {
+    "Kc": ("K<sub>c</sub>", "Controller gain Kc"),
+    "tau_I": ("τ<sub>I</sub>", "Integral time tau_I"),
+    "tau_D": ("τ<sub>D</sub>", "Derivative time tau_D"),
+    "Kp": ("K<sub>p</sub>", "Proportional gain Kp"),
+    "Ki": ("K<sub>i</sub>", "Integral gain Ki"),
+    "Kd": ("K<sub>d</sub>", "Derivative gain Kd"),
+    "K_I": ("K<sub>I</sub>", "Integral gain K_I"),
+    "k": ("k", "Gain of the plant k"),
+    "theta": ("θ", "Dead time theta"),
+    "tau1": ("τ<sub>1</sub>", "Largest time constant tau1"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """What is turned. settings: the knobs are those of the controller, else those of the plant.
+
+    plant, controller: where the knobs were when they were offered; their ranges follow from these.
+    """
+
+    plant: Plant
+    controller: Controller
+    settings: bool
+
+    def at(self, values: dict[str, float]) -> Loop:
+        """The loop with the knobs there. Raises InvalidParameter for values out of bounds."""
+        if self.settings:
+            given = self.controller.settings
+            turned = {name: math.copysign(value, given[name]) for name, value in values.items() if name in given}
+            return Loop(self.plant, replace(self.controller, **turned))
+        return Loop(turned_plant(self.plant, values), self.controller)
+
+
+def turned_plant(plant: Plant, values: dict[str, float]) -> Plant:
+    """The plant with k, theta or tau1, its largest time constant, at other sizes. Raises InvalidParameter."""
+    lags = list(plant.lags)
+    if "tau1" in values:
+        largest = max(range(len(lags)), key=lambda i: abs(lags[i]))
+        lags[largest] = math.copysign(values["tau1"], lags[largest])
+    k = math.copysign(values.get("k", abs(plant.k)), plant.k)
+    return replace(plant, k=k, theta=values.get("theta", plant.theta), lags=tuple(lags))
+
+
+def knobs(subject: Subject) -> list[dict]:
+    """Name, words, value and range of each knob."""
+    if subject.settings:
+        values = {name: value for name, value in subject.controller.settings.items() if math.isfinite(value)}
+    else:
+        values = {"k": subject.plant.k, "theta": subject.plant.theta}
+        if subject.plant.lags:
+            values["tau1"] = max(subject.plant.lags, key=abs)
+    return [_knob(subject, name, abs(value)) for name, value in values.items()]
+
+
+def _knob(subject: Subject, name: str, value: float) -> dict:
+    symbol, label = NAMES[name]
+    zero = name in ("tau_D", "Kd", "Ki", "theta")  # which may be nothing at all
+    size = value or _usual(subject, name)
+    low = size * LEAST_D if zero else size / REACH
+    return {
+        "name": name,
+        "symbol": symbol,
+        "label": label,
+        "value": value,
+        "low": low,
+        "high": size * REACH,
+        "zero": zero,
+    }
+
+
+def _usual(subject: Subject, name: str) -> float:
+    """A size for a knob that stands at nothing."""
+    slowest = max([abs(tau) for tau in subject.plant.lags] + [tau for tau, _ in subject.plant.lag_pairs], default=0.0)
+    time = subject.plant.theta or slowest or 1.0
+    if name in ("tau_D", "theta"):
+        return 0.5 * time
+    form = subject.controller.to_parallel()
+    gain = abs(form.Kp) or abs(form.Ki) * time or 1.0
+    return gain * time / 2 if name == "Kd" else gain / (4 * time)
+
+
+def setup(subject: Subject, grid: Grid, present: Study, behind: Sequence[tuple[str, Study]], name: str) -> bytes:
+    """What does not change while a knob moves. behind: designs that are drawn behind, by name."""
+    plant = {field: getattr(subject.plant, field) for field in Plant.__slots__}
+    header = {
+        "kind": "setup",
+        "id": name,
+        "knobs": knobs(subject),
+        "plant": plant,
+        "controller": _controller(subject.controller),
+        "steps": {"r": 1.0, "d": 1.0, "load": grid.load},
+        "t": grid.t.tolist(),
+        "load": grid.load,
+        "omega": grid.omega.tolist(),
+        **judgement(CELLS),
+        "pins": [{"name": letter} for letter, _ in behind],
+    }
+    y, u, *_ = responses(present.loop, grid)
+    header["y_cap"], header["u_cap"] = cap(y, 2.0), cap(u, 3.0)
+    blocks = {}
+    if behind:
+        rows = zip(*[responses(each.loop, grid) for _, each in behind], strict=True)
+        blocks = {f"pin_{field}": np.array(block) for field, block in zip(CURVES, rows, strict=True)}
+    return pack(header, blocks)
+
+
+def _controller(controller: Controller) -> dict:
+    form = {SeriesPid: "series", IdealPid: "ideal", IController: "I"}.get(type(controller), "parallel")
+    settings = {name: value if math.isfinite(value) else None for name, value in controller.settings.items()}
+    weights = (0.0, 1.0, 0.0) if form == "I" else (controller.tau_F, controller.b, controller.c)
+    return {"form": form, "settings": settings, **dict(zip(("tau_F", "b", "c"), weights, strict=True))}
+
+
+def exact(subject: Subject, grid: Grid, values: dict[str, float], name: str, answers: int) -> bytes:
+    """The picture at these values without the engine of the browser. name: of the setup; answers: the release."""
+    loop = subject.at(values)
+    each = study_of_settings(loop.plant, loop.controller)
+    header = {
+        "kind": "exact",
+        "to": "hand",
+        "setup": name,
+        "values": values,
+        "answers": answers,
+        "stable": each.stable,
+        "metrics": figures(judged(each, grid.omega)),
+    }
+    return pack(header, dict(zip(CURVES, responses(loop, grid), strict=True)))
+
+
+def values_of(subject: Subject) -> dict[str, float]:
+    """Where the knobs are at first."""
+    return {knob["name"]: knob["value"] for knob in knobs(subject)}
+
+
+def allowed(subject: Subject, values: dict) -> dict[str, float]:
+    """Values that a browser sent, those of knobs only. Raises InvalidParameter for what is no number in range."""
+    found = {}
+    for knob in knobs(subject):
+        value = values.get(knob["name"], knob["value"])
+        within = (
+            isinstance(value, int | float)
+            and (0 if knob["zero"] else knob["low"] * 0.999) <= value <= knob["high"] * 1.001
+        )
+        if not within:
+            raise InvalidParameter(
+                f"{knob['name']} must be within {knob['low']:g} to {knob['high']:g}, got {value!s:.20}"
+            )
+        found[knob["name"]] = float(value)
+    return found
+
+
+def setup_name(subject: Subject, grid: Grid, behind: Sequence[tuple[str, Study]]) -> str:
+    """Same name, same setup."""
+    return name_of(subject, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind])
