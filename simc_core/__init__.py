@@ -9,6 +9,7 @@ from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import Performance, StepMetrics, performance
+from simc_core.numbers import read_number, read_numbers
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,
@@ -19,6 +20,7 @@ from simc_core.plants.models import (
 )
 from simc_core.plants.parse import parse_plant
 from simc_core.plants.plant import Plant
+from simc_core.read_back import read_back
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Candidate, Reduction, Share, Step
 from simc_core.rules.direct_synthesis import direct_synthesis

@@ -39,6 +39,7 @@ def factorise(name: str, polynomials: Iterable) -> Factors:
         while coefficients[-1] == 0:
             coefficients, at_origin = coefficients[:-1], at_origin + 1
         constant *= coefficients[-1]
+        _check_sizes(name, coefficients)
         for root in _roots(coefficients):
             if root.imag == 0:
                 times.append(-1 / root.real)
@@ -54,6 +55,19 @@ def _trimmed(name: str, polynomial) -> np.ndarray:
     if coefficients.size == 0:
         raise InvalidParameter(f"{name} must not be zero or empty, got {values}")
     return coefficients
+
+
+def _check_sizes(name: str, coefficients: np.ndarray) -> None:
+    """Refuse what no time constants within bounds can give, before it overflows."""
+    degree = len(coefficients) - 1
+    ratios = [abs(float(c)) / abs(float(coefficients[-1])) for c in coefficients]
+    largest = [2.0**degree * checks.LONGEST_TIME ** (degree - i) for i in range(degree + 1)]
+    too_large = any(ratio > limit for ratio, limit in zip(ratios, largest, strict=True))
+    if degree > 1 and (too_large or ratios[0] < checks.LONGEST_TIME**-degree):
+        raise InvalidParameter(
+            f"time constants of the {name} must be between {1 / checks.LONGEST_TIME:g} and {checks.LONGEST_TIME:g}: "
+            f"coefficients of one polynomial must be of comparable size, got {coefficients[0]:g} to {coefficients[-1]:g}"
+        )
 
 
 def _roots(coefficients: np.ndarray) -> list[complex]:

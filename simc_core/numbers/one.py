@@ -9,7 +9,7 @@ import re
 from fractions import Fraction
 
 from simc_core.errors import InvalidParameter
-from simc_core.numbers.refusal import no_number
+from simc_core.numbers.refusal import no_number, quoted
 from simc_core.numbers.signs import INVISIBLE, LOWERED, SUPERSCRIPTS, tidied
 
 LONGEST_NUMBER = 100  # characters
@@ -77,10 +77,10 @@ def exact(name: str, text: str) -> Fraction:
         raise InvalidParameter(no_number(name, plain))
     # 1 1/2 may be one and a half, so that blanks have no place here at all
     if len(bottom) > 1 or " " in top or " " in bottom[0]:
-        raise InvalidParameter(f"{name} must be one number or one fraction like 11/5 or 3/2, got '{plain}'")
+        raise InvalidParameter(f"{name} must be one number or one fraction like 11/5 or 3/2, got '{quoted(plain)}'")
     divisor = _scientific(name, bottom[0])
     if not divisor:
-        raise InvalidParameter(f"{name} must not be divided by zero, got '{plain}'")
+        raise InvalidParameter(f"{name} must not be divided by zero, got '{quoted(plain)}'")
     return _scientific(name, top) / divisor
 
 

@@ -1,83 +1,65 @@
-"""Transfer functions as people write them, read by recursive descent.
+"""Transfer functions as people write and paste them.
 
-    (1-2s)/((10s+1)(6s+1)(s+1))      exp(-3s)/((6s+1)(4s+1)(2s+1))      2 e^{-0.5s}/(s(3s+1)^2)      (s+2)/(s^2+3*s+1)
-
-    sum      = ["+" | "-"] product { ("+" | "-") product }
-    product  = power { ["*" | "/"] power }
-    power    = atom [ ("^" | "**") whole number ]
-    atom     = number | "s" | "(" sum ")" | "exp" "(" sum ")" | "e^" exponent | "\\frac" "{" sum "}" "{" sum "}"
+    (1-2s)/((10s+1)(6s+1)(s+1))   2 e^{-0.5s}/(s(3s+1)^2)   G(s) = 0,5 e⁻³ˢ/(2p+1)²   k=2, tau=10, theta=3
+    tf([1 2],[1 3 2],'InputDelay',0.5)   \\frac{2 e^{-2s}}{5s+1}   K e^{-L s}/(T s+1), K=2, T=5, L=1
 
 Brackets may be (), [] or {}; a decimal comma counts as a point. Numbers are kept as exact fractions, and factors that
-were written apart stay apart, so that nothing is lost on the way. What could be read in two ways, like 1/2s or
-1/(s+1)(2s+1), is refused with a hint; nothing is ever evaluated as code, and the work is bounded.
+were written apart stay apart, so that nothing is lost on the way. What could be read in two ways, like 1/2s, 1,000 or
+5e-3s, is refused with the way out; nothing is ever evaluated as code, and the work is bounded.
 """
 
 import re
 from fractions import Fraction
-from typing import NamedTuple
 
-from simc_core import checks
 from simc_core.errors import ParseError
-from simc_core.plants.parse_values import (
-    MINUS_ONE,
-    MOST_PARTS,
-    ONE,
-    S,
-    Value,
-    degree,
-    expanded,
-    inverse,
-    is_zero,
-    plant_of,
-    plus,
-    times,
-    too_large,
-)
+from simc_core.numbers.refusal import quoted
+from simc_core.plants.parse_values import Value, number_of, plant_of
+from simc_core.plants.pasted.calls import read_call
+from simc_core.plants.pasted.clutter import without_clutter
+from simc_core.plants.pasted.grammar import Reader
+from simc_core.plants.pasted.parameters import DAMPING, DELAYS, GAINS, LAGS, from_parameters
+from simc_core.plants.pasted.statements import Statement, statements
 from simc_core.plants.plant import Plant
 
 LONGEST_TEXT = 2000
-DEEPEST = 50  # nested brackets
-HIGHEST_POWER = 40
-LARGEST_EXPONENT = 300  # of a number with a decimal exponent
-
-TOKEN = re.compile(
-    r"(?P<number>(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?)"
-    r"|(?P<exp>\\?exp(?![a-zA-Z])|e(?=\s*(?:\^|\*\*)))"
-    r"|(?P<frac>\\frac)"
-    r"|(?P<s>s)"
-    r"|(?P<power>\^|\*\*|[⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
-    r"|(?P<sign>[-+*/(){}\[\]])"
-)
-ALIKE = str.maketrans("−–·×⋅∙\u00a0\u2009\u202f\t\n\r", "--****      ")  # one sign for one: positions stay
-SPACES = re.compile(r"(?:\s|\\left(?![a-z])|\\right(?![a-z])|\\[,;:! ])+")
-CDOT = re.compile(r"\\(?:cdot|times)(?![a-z])")
-NAME = re.compile(r"\s*[A-Za-z]\w{0,10}\s*(?:\(\s*s\s*\)\s*)?=")
-SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
-CLOSING = {"(": ")", "[": "]", "{": "}"}
-
-
-class Token(NamedTuple):
-    """kind: number, exp, frac, s, power, sign or end."""
-
-    kind: str
-    text: str
-    at: int
+EXAMPLE = "for instance exp(-3s)/((6s+1)(4s+1))"
 
 
 def parse_plant(text: str) -> Plant:
-    """The plant that `text` describes, see the module docstring.
+    """The plant that a text describes.
 
-    Raises ParseError with the position of the fault, InvalidParameter where the plant itself is out of bounds.
+    Parameters
+    ----------
+    text
+        A transfer function in s or p, with or without a name before it; a constructor call or the print-out of
+        MATLAB, Octave, python-control, scipy or Scilab; LaTeX; or a list of parameters like k=2, tau=10, theta=3.
+
+    Returns
+    -------
+    Plant
+        Factors of first order and complex pairs as written, to the last bit.
+
+    Raises
+    ------
+    ParseError
+        With the position of the fault, and the way out.
+    InvalidParameter
+        Where the plant itself is out of bounds.
     """
     if not isinstance(text, str):
         raise ParseError(f"a transfer function must be text, got {type(text).__name__}")
     if len(text) > LONGEST_TEXT:
         raise ParseError(f"text must have at most {LONGEST_TEXT} characters, got {len(text)}", text, LONGEST_TEXT)
     if not text.strip():
-        raise ParseError(
-            "text must not be empty: write a transfer function, for instance exp(-3s)/((6s+1)(4s+1))", text
-        )
-    value = _Reader(text).plant()
+        raise ParseError(f"text must not be empty: write a transfer function, {EXAMPLE}", text)
+    try:
+        return _plant(text)
+    except OverflowError:
+        raise ParseError("numbers here grow beyond all bounds", text) from None
+
+
+def _plant(text: str) -> Plant:
+    value = _Statements(text).value()
     if value.theta < 0:
         raise ParseError(
             f"dead time must be >= 0, got {float(value.theta):g}: e^{{+{-float(value.theta):g} s}} is a prediction. "
@@ -88,223 +70,86 @@ def parse_plant(text: str) -> Plant:
     return plant_of(value)
 
 
-class _Reader:
-    """The descent: one method for one line of the grammar."""
+class _Statements:
+    """The statements of a text, read with the values that they give one another."""
 
     def __init__(self, text: str):
         self.text = text
-        self.tokens = list(self._tokens())
-        self.next = 0
-        self.depth = 0
+        self.plain = without_clutter(text)
+        self.numbers: dict[str, tuple[Fraction, Statement]] = {}
+        self.functions: list[tuple[Value, Statement]] = []
+        self.names: dict[str, Value] = {}
+        self.used: set[str] = set()
 
-    def plant(self) -> Value:
-        value = self.sum()
-        if self.token.kind != "end":
-            raise self.fault(f"a transfer function must end here, got '{self.token.text}'")
-        return value
+    def value(self) -> Value:
+        parts = statements(self.plain)
+        if not parts:
+            raise ParseError(f"a transfer function is missing here: write one, {EXAMPLE}", self.text)
+        others = [part for part in parts if not self.read_number(part)]
+        for part in others:
+            self.read_function(part)
+        unused = {name: given for name, given in self.numbers.items() if name not in self.used}
+        if not self.functions:
+            return from_parameters(self.text, unused)
+        value = self.functions[-1][0]
+        for other, part in self.functions[:-1]:
+            if part.key not in self.used:
+                if number_of(other) is not None and not part.name:
+                    raise self.fault("a number stands here without a name: write theta = 3 for a dead time", part)
+                raise self.fault("there are two transfer functions in this text: enter one of them", part)
+        return self.delayed(value, unused)
 
-    @property
-    def token(self) -> Token:
-        return self.tokens[self.next]
+    def read_number(self, part: Statement) -> bool:
+        """Whether the statement gives a number its name; if so it is kept."""
+        if part.names_a_plant or not _only_digits(self.plain[part.start : part.stop]):
+            return False
+        number = number_of(self.reader(part).plant())
+        if number is None:
+            raise self.fault(f"'{quoted(part.name)}' must be one number", part)
+        if part.key in ("s", "e"):
+            raise self.fault(f"'{quoted(part.name)}' cannot be given a value here", part)
+        if part.key in self.numbers:
+            raise self.fault(f"'{quoted(part.name)}' is given twice", part)
+        self.numbers[part.key] = number, part
+        self.names[part.key] = Value(((number,),))
+        return True
 
-    def take(self, *texts: str) -> Token | None:
-        """The present token, consumed, if it is one of `texts`."""
-        token = self.token
-        if token.kind in ("sign", "power") and token.text in texts:
-            self.next += 1
-            return token
-        return None
-
-    def fault(self, message: str, at: int | None = None) -> ParseError:
-        at = self.token.at if at is None else at
-        return ParseError(f"{message} (position {at + 1})", self.text, at)
-
-    def _tokens(self):
-        text = CDOT.sub(lambda found: "*".ljust(len(found[0])), self.text.translate(ALIKE))
-        name = NAME.match(text)
-        at = name.end() if name else 0
-        while at < len(text):
-            if space := SPACES.match(text, at):
-                at = space.end()
-                continue
-            found = TOKEN.match(text, at)
-            if not found:
-                raise self.fault(_unknown(text[at]), at)
-            yield Token(found.lastgroup, found[0], at)
-            at = found.end()
-        yield Token("end", "the end", len(text))
-
-    def sum(self) -> Value:
-        negative = self.take("-", "+")
-        value = self.product()
-        if negative and negative.text == "-":
-            value = times(value, MINUS_ONE)
-        while sign := self.take("+", "-"):
-            term = self.product()
-            value = self.checked(self.added(value, term, sign), sign.at)
-        return value
-
-    def added(self, a: Value, b: Value, sign: Token) -> Value:
-        if a.theta != b.theta:
+    def read_function(self, part: Statement) -> None:
+        name, given = part.key.lower(), self.plain[part.start : part.stop].strip()
+        with_unit = name in (*GAINS, *LAGS, *DAMPING) and re.fullmatch(r"[-+\d.,eE ]*\d *[^\W\d_%°/]+", given)
+        if name in DELAYS or with_unit:
             raise self.fault(
-                "terms with different dead times cannot be added to one transfer function of this kind: "
-                "multiply by exp(-theta s) instead",
-                sign.at,
+                f"'{quoted(part.name)}' must be a number without a unit, as in {quoted(part.name)} = 3", part
             )
-        if degree(a) + degree(b) > 4 * checks.MOST_FACTORS:
-            raise self.fault(f"the degree of a polynomial must be <= {checks.MOST_FACTORS}", sign.at)
-        return plus(a, b, -1 if sign.text == "-" else 1)
+        reader = self.reader(part)
+        value = reader.plant()
+        self.used |= reader.used
+        self.functions.append((value, part))
+        if part.key:
+            self.names[part.key] = value
 
-    def product(self) -> Value:
-        value = self.power()
-        divided = None
-        while True:
-            at = self.token.at
-            if self.take("*"):
-                value, divided = times(value, self.power()), None
-            elif slash := self.take("/"):
-                divisor = self.power()
-                if is_zero(divisor):
-                    raise self.fault("division by zero", slash.at)
-                value, divided = times(value, inverse(divisor)), slash
-            elif self.starts_atom():
-                if self.token.kind == "number" and self.tokens[self.next - 1].kind != "number":
-                    # 10s 1 is 10s+1 that lost its plus, as in a link where + was not written %2B
-                    raise self.fault("a sign is missing before this number: write +, - or *", at)
-                if divided and self.token.kind != "exp":
-                    raise self.fault(
-                        "after '/' it is not clear how far the denominator goes: write 1/((s+1)(2s+1)) if this belongs "
-                        "to it, or put * before what does not",
-                        at,
-                    )
-                value = times(value, self.power())
-            else:
-                return value
-            self.checked(value, at)
+    def reader(self, part: Statement) -> Reader:
+        return Reader(self.text, self.plain, part.start, part.stop, self.names, read_call)
 
-    def starts_atom(self) -> bool:
-        token = self.token
-        return token.kind in ("number", "s", "exp", "frac") or (token.kind == "sign" and token.text in CLOSING)
-
-    def power(self) -> Value:
-        at = self.token.at
-        value = self.atom()
-        while self.token.kind == "power":
-            exponent = self.whole_exponent()
-            if abs(exponent) > HIGHEST_POWER:
-                raise self.fault(f"a power must be between -{HIGHEST_POWER} and {HIGHEST_POWER}, got {exponent}", at)
-            if exponent < 0 and is_zero(value):
-                raise self.fault("division by zero", at)
-            base = inverse(value) if exponent < 0 else value
-            n = abs(exponent)
-            if n * max(len(base.num), len(base.den)) > MOST_PARTS:
-                raise self.fault(f"a product must have at most {MOST_PARTS} factors", at)
-            value = self.checked(Value(base.num * n or (ONE,), base.den * n, base.theta * n, base.at), at)
+    def delayed(self, value: Value, unused: dict[str, tuple[Fraction, Statement]]) -> Value:
+        """The transfer function with a dead time that was given beside it, G = ..., L = 0.5."""
+        for name, (number, part) in unused.items():
+            if name.lower() not in DELAYS:
+                raise self.fault(
+                    f"'{quoted(part.name)}' is given a value and is not used: write theta = {float(number):g} if it "
+                    "is the dead time, or leave it out",
+                    part,
+                )
+            if value.theta:
+                raise self.fault("the dead time is given twice: leave one out", part)
+            value = Value(value.num, value.den, number, part.at)
         return value
 
-    def whole_exponent(self) -> int:
-        token = self.token
-        self.next += 1
-        if token.text not in ("^", "**"):
-            return int(token.text.translate(SUPERSCRIPTS))
-        opened = self.take("(", "{", "[")
-        sign = -1 if self.take("-") else 1
-        token = self.token
-        if token.kind != "number" or not token.text.isascii() or not token.text.isdigit():
-            raise self.fault(f"a power must be a whole number, got '{token.text}'")
-        self.next += 1
-        if opened:
-            self.close(opened)
-        return sign * int(token.text[:5])
-
-    def atom(self) -> Value:
-        token = self.token
-        self.next += 1
-        match token.kind:
-            case "number":
-                return Value(((self.number(token),),))
-            case "s":
-                return Value((S,))
-            case "exp":
-                return self.exponential(token)
-            case "frac":
-                top, bottom = self.group(), self.group()
-                if is_zero(bottom):
-                    raise self.fault("division by zero", token.at)
-                return times(top, inverse(bottom))
-            case "sign" if token.text in CLOSING:
-                self.next -= 1
-                return self.group()
-            case "sign" if token.text == "-" and self.token.text != "-":  # 2*-s, e^{-s}*-1
-                return times(MINUS_ONE, self.power())
-            case "sign" if token.text in CLOSING.values():
-                raise self.fault(f"'{token.text}' closes a bracket that was not opened", token.at)
-        raise self.fault(f"a number, s, exp or a bracket is expected here, got {_named(token)}", token.at)
-
-    def number(self, token: Token) -> Fraction:
-        text = token.text.replace(",", ".").lower()
-        exponent = text.partition("e")[2]
-        if exponent and abs(int(exponent[:6])) > LARGEST_EXPONENT:
-            raise self.fault(f"a number must be below 1e{LARGEST_EXPONENT}, got {token.text[:20]}", token.at)
-        following = self.token
-        if following.kind == "number" and following.at == token.at + len(token.text):
-            raise self.fault(f"'{token.text}{following.text}' is not a number", token.at)
-        return Fraction(text)
-
-    def group(self) -> Value:
-        opened = self.take(*CLOSING)
-        if not opened:
-            raise self.fault(f"an opening bracket is expected here, got {_named(self.token)}")
-        self.depth += 1
-        if self.depth > DEEPEST:
-            raise self.fault(f"brackets must not be nested more than {DEEPEST} deep", opened.at)
-        value = self.sum()
-        self.close(opened)
-        self.depth -= 1
-        return value
-
-    def close(self, opened: Token) -> None:
-        if not self.take(CLOSING[opened.text]):
-            raise self.fault(
-                f"'{opened.text}' of position {opened.at + 1} must be closed by '{CLOSING[opened.text]}', "
-                f"got {_named(self.token)}"
-            )
-
-    def exponential(self, token: Token) -> Value:
-        if token.text == "e":
-            self.next += 1  # the power sign, seen by the token's pattern
-        value = self.group() if self.token.text in CLOSING else self.bare_exponent()
-        exponent = expanded(value.num)
-        divisor = expanded(value.den)
-        if value.theta or len(divisor) > 1 or len(exponent) > 2 or exponent[0]:
-            raise self.fault("the exponent must be a multiple of s, as in e^{-3s} or exp(-3 s)", token.at)
-        slope = exponent[1] / divisor[0] if len(exponent) > 1 else Fraction(0)
-        return Value((ONE,), (), -slope, token.at)
-
-    def bare_exponent(self) -> Value:
-        """-3s, -s, -3*s of e^-3s: a sign, numbers and one s."""
-        value = MINUS_ONE if self.take("-") else Value((ONE,))
-        while self.token.kind == "number":
-            value = times(value, self.atom())
-            self.take("*")
-        if self.token.kind != "s":
-            raise self.fault("the exponent must be a multiple of s, as in e^{-3s} or exp(-3 s)")
-        return times(value, self.atom())
-
-    def checked(self, value: Value, at: int) -> Value:
-        """`value`, if it is still of a size worth working on."""
-        if excess := too_large(value):
-            raise self.fault(excess, at)
-        return value
+    def fault(self, message: str, part: Statement) -> ParseError:
+        return ParseError(f"{message} (position {part.at + 1})", self.text, part.at)
 
 
-def _named(token: Token) -> str:
-    return "the end of the text" if token.kind == "end" else f"'{token.text}'"
-
-
-def _unknown(sign: str) -> str:
-    if sign == "e":
-        return "e must have an exponent: write e^{-3s} or exp(-3s)"
-    if sign.isalpha():
-        return f"'{sign}' is not known: write the transfer function in s, with numbers for everything else"
-    return f"'{sign}' is not part of a transfer function"
+def _only_digits(text: str) -> bool:
+    """Whether the text can be a number: no letters but those of 1e-3, pi and sqrt."""
+    words = text.lower().replace("sqrt", "").replace("pi", "").replace("π", "")
+    return not any(sign.isalpha() and not sign.isdigit() and sign != "e" for sign in words) and text.strip() != ""

@@ -1,6 +1,7 @@
 """Transfer functions in exact fractions, as the parser builds them: products of polynomials and one dead time."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -75,6 +76,23 @@ def _float(name: str, value: Fraction) -> float:
         return float(value)
     except OverflowError:
         raise InvalidParameter(f"|{name}| must be <= {checks.LARGEST_GAIN:g}, got more than 1e308") from None
+
+
+def constant(number: Fraction) -> Value:
+    """A number as a value."""
+    return Value(((number,),))
+
+
+def polynomial(descending: Sequence[Fraction]) -> Value:
+    """A polynomial given by its coefficients in descending powers of s."""
+    return Value((_trimmed(tuple(reversed(descending))),))
+
+
+def number_of(value: Value) -> Fraction | None:
+    """The number that `value` is; None if s or a dead time is in it."""
+    if value.theta or degree(value):
+        return None
+    return expanded(value.num)[0] / expanded(value.den)[0]
 
 
 def is_zero(value: Value) -> bool:

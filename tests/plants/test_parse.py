@@ -72,7 +72,7 @@ def test_exact_fractions_leave_no_dust():
         ("1/(s+1", 6, r"'\(' of position 3 must be closed by '\)', got the end"),
         ("1/(s+1]", 6, r"must be closed by '\)', got '\]'"),
         ("1/(s+1))", 7, "must end here"),
-        ("1/(p+1)", 3, "'p' is not known: write the transfer function in s"),
+        ("1/(x+1)", 3, "'x' is not known: write the transfer function in s"),
         ("K e^{-s}", 0, "'K' is not known"),
         ("1/(s+1) $", 8, "is not part of a transfer function"),
         ("1/2s", 3, "how far the denominator goes"),

@@ -1,0 +1,176 @@
+"""Text to tokens: numbers, the variable, words taken whole, signs. A word that is not known is named whole."""
+
+import re
+from collections.abc import Collection, Iterator
+from typing import NamedTuple
+
+from simc_core.errors import ParseError
+from simc_core.numbers.signs import LOWERED, SUPERSCRIPTS
+
+
+class Token(NamedTuple):
+    """kind: number, s, name, exp, e, delay, frac, over, bar, sqrt, pi, call, list, power, sign or end; at: position."""
+
+    kind: str
+    text: str
+    at: int
+
+
+RAISED = SUPERSCRIPTS[:10]
+LETTER = rf"(?:(?![{RAISED}½¼¾ˢᵖ])[^\W\d_])"
+WITH_POINT = r"[1-9]\d{0,2}(?:,\d{3})+\.\d+"
+GROUPED = r"[1-9]\d{0,2}(?:[ ']\d{3})+(?![\d])(?:[.,]\d+)?"
+SIMPLE = r"\d+(?:[.,]\d*)?|[.,]\d+"
+LIST_ITEM = re.compile(rf"[+-]?(?:{SIMPLE})(?:[eE][+-]?\d+)?")
+SPACE = re.compile(r"(?:\s|\\(?:left|right|[bB]igg?[lr]?|displaystyle|limits|quad|qquad)(?![a-z])|\\[,;:! ]|~)+")
+TIMES = re.compile(rf"\\(?:cdot|times)(?![a-z])|(?<=[\d\s])x(?=\s*10(?:\^|\*\*|[⁻{RAISED}]))")
+TOKEN = re.compile(
+    rf"(?P<number>(?:{WITH_POINT}|{GROUPED}|{SIMPLE})(?:[eE][+-]?\d+)?)"
+    rf"|(?P<bar>-{{3,}}|═+|[─━]{{3,}}|_{{3,}})"
+    r"|(?P<list>\[[\d.,eE+\s-]*\])"
+    rf"|(?P<delay>e[⁻⁺]?[{RAISED}]*[ˢᵖ])"
+    rf"|(?P<word>\\(?:mathrm|text|operatorname|mathit|rm)\s*\{{\s*\w+\s*\}}|[%\\]?{LETTER}(?:{LETTER}|[0-9]|_\w|_\{{\w+\}})*"
+    rf"(?:\.{LETTER}\w*)*|[√])"
+    rf"|(?P<power>\.?\^|\.?\*\*|[⁺⁻]?[{RAISED}]+)"
+    r"|(?P<sign>\.?[*/]|[-+(){}\[\]])"
+)
+WORDS = {
+    "exp": ("exp", "np.exp", "numpy.exp", "math.exp", "sp.exp", "sympy.exp", "cmath.exp"),
+    "e": ("e", "%e"),
+    "frac": ("frac", "dfrac", "tfrac", "cfrac"),
+    "over": ("over",),
+    "sqrt": ("sqrt", "np.sqrt", "numpy.sqrt", "math.sqrt", "√"),
+    "pi": ("pi", "π", "%pi", "np.pi", "numpy.pi", "math.pi"),
+}
+KIND_OF = {word: kind for kind, words in WORDS.items() for word in words}
+VARIABLES = ("s", "S", "p", "%s")
+CALLS = ("tf", "transferfunction", "transferfunctioncontinuous", "zpk", "zerospolesgain", "syslin", "lti", "delay")
+LONGEST_ROW = 40  # letters of names written without a sign between
+HINTS = {
+    "ss": "state space is not read: write the transfer function, or its coefficients as tf([1 2], [1 3 2])",
+    "statespace": "state space is not read: write the transfer function, or its coefficients as tf([1 2], [1 3 2])",
+    "pade": "the dead time is exact here: write exp(-2s) in place of its Padé approximation",
+    "z": "a sampled model in z is not read: write the transfer function in s",
+    "jw": "write the transfer function in s, not its frequency response",
+    "jω": "write the transfer function in s, not its frequency response",
+    "log": "work it out and write a number",
+    "feedback": "work out the closed loop first, or enter the plant alone",
+}
+
+
+def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str]) -> Iterator[Token]:
+    """The tokens of plain[start:stop], and an end.
+
+    text: what was typed, for errors. names: what has a value besides s and functions.
+    """
+    plain = TIMES.sub(lambda found: "*".ljust(len(found[0])), plain)
+    at = start
+    while at < stop:
+        if space := SPACE.match(plain, at, stop):
+            at = space.end()
+            continue
+        found = TOKEN.match(plain, at, stop)
+        if not found:
+            hint = ": write 0.5, or 50, for 50 %" if text[at] == "%" else ""
+            raise ParseError(f"'{text[at]}' is not part of a transfer function{hint} (position {at + 1})", text, at)
+        kind, written = found.lastgroup, found[0]
+        if kind == "list" and not _is_list(written):
+            kind, written = "sign", "["
+        if kind == "word":
+            for token in _word(text, plain, written, at, names):
+                yield token
+                at = token.at + len(token.text)
+            continue
+        yield Token(kind, written.lstrip(".") if kind in ("power", "sign") else written, at)
+        at += len(written)
+    yield Token("end", "the end", stop)
+
+
+def _is_list(written: str) -> bool:
+    """Whether [..] holds at least two numbers side by side, and not a sum or one number in brackets."""
+    words = re.split(r"\s*,\s*|\s+", written[1:-1].strip().rstrip(","))
+    return len(words) > 1 and all(LIST_ITEM.fullmatch(word) for word in words)
+
+
+def bare(word: str) -> str:
+    r"""A name without its typesetting: \tau_{1} and τ_1 are tau1."""
+    inner = re.sub(r"^\\(?:mathrm|text|operatorname|mathit|rm)\s*\{\s*(.*?)\s*\}$", r"\1", word)
+    letters = {"τ": "tau", "θ": "theta", "ζ": "zeta", "ϑ": "theta"}
+    for sign, name in letters.items():
+        inner = inner.replace(sign, name)
+    return re.sub(r"[\\_{}]", "", inner)
+
+
+def _word(text: str, plain: str, written: str, at: int, names: Collection[str]) -> list[Token]:
+    """A word as one token, or, as in Ks, sexp or s2, as the known ones it is made of."""
+    name = bare(written)
+    if name in names:
+        return [Token("name", written, at)]
+    known = name if name in KIND_OF else name.lower()
+    kind = KIND_OF.get(known)
+    end = at + len(written)
+    opened = plain[end:].lstrip()[:1] == "("
+    if kind == "e" and not re.match(r"\s*(?:\.?\^|\*\*)", plain[end:]):
+        raise _lost_exponent(text, plain, at, end)
+    if kind:
+        return [Token(kind, written, at)]
+    if written in VARIABLES:
+        return [Token("s", written, at)]
+    if opened and known.rpartition(".")[2] in CALLS:
+        return [Token("call", plain[at : _closing(text, plain, end + plain[end:].index("("))], at)]
+    parts = [] if opened and len(written) > 1 else _pieces(written, at, names, plain)
+    if not parts:
+        raise _unknown(text, known, written, at)
+    return parts
+
+
+def _pieces(written: str, at: int, names: Collection[str], plain: str) -> list[Token]:
+    """The word as a row of names, variables and exponentials; empty if it is none."""
+    if not 0 < len(written) <= LONGEST_ROW:
+        return []
+    for length in range(len(written), 0, -1):
+        piece, rest = written[:length], written[length:]
+        after = at + length
+        if bare(piece) in names:
+            kind = "name"
+        elif piece in VARIABLES:
+            kind = "s"
+        elif piece == "exp" or (piece == "e" and re.match(r"\s*(?:\^|\*\*)", plain[after:])):
+            kind = piece
+        elif piece == "pi":
+            kind = "pi"
+        elif piece.isdigit() and piece.isascii() and not rest:
+            kind = "number"
+        else:
+            continue
+        following = _pieces(rest, after, names, plain)
+        return [Token(kind, piece, at), *following] if following or not rest else []
+    return []
+
+
+def _closing(text: str, plain: str, at: int) -> int:
+    """The position after the bracket that closes the one at `at`."""
+    depth = 0
+    for i in range(at, len(plain)):
+        depth += (plain[i] in "([{") - (plain[i] in ")]}")
+        if depth == 0:
+            return i + 1
+    raise ParseError(f"'(' of position {at + 1} must be closed by ')', got the end of the text", text, at)
+
+
+def _lost_exponent(text: str, plain: str, at: int, end: int) -> ParseError:
+    lost = re.match(r"\s*-\s*([\d.,]*)\s*\*?\s*[sp]", plain[end:])
+    hint = f": did you mean e^(-{lost[1]}s)?" if lost else ": write e^{-3s} or exp(-3s)"
+    return ParseError(f"e must have an exponent{hint} (position {at + 1})", text, at)
+
+
+def _unknown(text: str, known: str, written: str, at: int) -> ParseError:
+    shown = written if len(written) <= 30 else written[:27] + "..."
+    hint = HINTS.get(known.rpartition(".")[2], "write the transfer function in s, with numbers for everything else")
+    return ParseError(f"'{shown}' is not known: {hint} (position {at + 1})", text, at)
+
+
+def superscript_delay(written: str) -> int:
+    """The exponent of s in e⁻³ˢ."""
+    digits = written[1:-1].translate(LOWERED)
+    return int(digits if digits.strip("+-") else digits + "1")
