@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from simc_core import ParseError, SimcError, parse_plant
+from simc_core import ParseError, Plant, SimcError, parse_plant
 
 TWO_READINGS = {
     # commas and blanks
