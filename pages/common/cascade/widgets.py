@@ -3,20 +3,22 @@
 from dataclasses import replace
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
+from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
 from pages.common.plant.entry import plant_entry
 from pages.common.session import state
-from pages.common.session.design import HIGHEST_N, KINDS, LOWEST_N, METHODS, Cascade
+from pages.common.session.design import KINDS, METHODS, Cascade
 from pages.common.studies.cascade import USUAL_MS, CascadeStudy, of_row, scale, speed_symbol
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.cascade.pairs import ROWS, PairRow
-from simc_core.checks import LONGEST_TIME
 from simc_core.controllers.forms import FORMS
 from simc_core.notation import number
 
-BLOCKS = (("Ga", "$G_a$ primary", "primary block Ga"), ("Gb", "$G_b$ secondary", "secondary block Gb"))
+BLOCKS = (("Ga", "Ga primary", "primary block Ga"), ("Gb", "Gb secondary", "secondary block Gb"))
 METHOD_NAMES = {"simc": "SIMC", "synthesis": "Synthesis"}
+SPEED_LETTERS = {"simc": "τc", "synthesis": "λ"}
 LOOPS = {"outer": "Outer loop", "inner": "Inner loop"}
 SPEEDS = [10 ** (i / 20) for i in range(-40, 21)]  # of a slider, in units of the loop's own times
 PEAKS = [1.05 + 0.05 * i for i in range(80)]
@@ -37,7 +39,7 @@ def blocks() -> None:
             with st.popover(label, help=f"Enter the {title}"):
                 plant_entry(name, title)
                 st.button(
-                    "Take $G$ of the other pages",
+                    "Take G of the other pages",
                     key=f"take_{name}",
                     on_click=state.change,
                     kwargs={name: state.plant()},
@@ -60,7 +62,11 @@ def blocks() -> None:
 def method() -> None:
     """SIMC or direct synthesis, and the set-point weight of the outer controller."""
     state.set_widget("method", state.value("method"))
-    with st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall", key="method_row"):
+    row, under = (
+        st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall", key="method_row"),
+        st.container(),
+    )
+    with row:
         st.segmented_control(
             "Method",
             METHODS,
@@ -71,16 +77,13 @@ def method() -> None:
             "synthesis: a Maclaurin expansion of the controller that gives a wanted response, for integrating and "
             "unstable blocks too [PSB].",
         )
-        st.number_input(
-            "$b$",
-            0.0,
-            2.0,
-            step=0.1,
+        design_number(
+            "b_outer",
+            "b",
             width=58,
-            format="%.3g",
+            under=under,
             help="Set-point weight of the outer controller: its proportional action sees $b\\,r - y_1$. Less than 1 "
             "softens set-point steps; stability and the response to $d_1$, $d_2$ stay as they are.",
-            **state.bound("b_outer"),
         )
 
 
@@ -105,21 +108,22 @@ def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
     cascade = state.cascade()
     asked = _asked(cascade, loop)
     filtered = cascade.method == "synthesis" and getattr(cascade, loop) == "PID"
-    with st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall"):
+    row, under = st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall"), st.container()
+    with row:
         st.segmented_control(LOOPS[loop], KINDS, **state.bound(loop))
         key = f"{loop}_by"
         state.set_widget(key, asked)
         st.segmented_control(
             "set by",
             ("auto", "tau_c", "Ms"),
-            format_func={"auto": "auto", "tau_c": f"${speed_symbol(cascade)}$", "Ms": "$M_s$"}.get,
+            format_func={"auto": "auto", "tau_c": SPEED_LETTERS[cascade.method], "Ms": "Ms"}.get,
             key=key,
             on_change=_take_asked,
             args=(loop, key, study),
             help=_meaning(cascade),
         )
         if filtered:
-            _filter(loop)
+            _filter(loop, under)
     if asked != "auto":
         _knob(loop, asked, study, slider)
     if study is not None:
@@ -149,13 +153,12 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
     name = f"{asked}_{loop}"
     unit = scale(state.cascade(), loop) if asked == "tau_c" else 1.0
     stops = SPEEDS if asked == "tau_c" else PEAKS
-    low, high = (1 / LONGEST_TIME, LONGEST_TIME) if asked == "tau_c" else (LOWEST_MS, HIGHEST_MS)
-    symbol = speed_symbol(state.cascade()) if asked == "tau_c" else "M_s"
+    symbol = SPEED_LETTERS[state.cascade().method] if asked == "tau_c" else "Ms"
     place = st.container()
     if slider:
         slide, place = st.columns([5, 3], vertical_alignment="bottom", gap="small")
         slide.select_slider(
-            f"${symbol}$ of the {loop} loop",
+            f"{symbol} of the {loop} loop",
             stops,
             format_func=lambda stop: number(stop * unit, 3),
             label_visibility="collapsed",
@@ -166,35 +169,31 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
                 key=f"{name}_slider",
             ),
         )
-    place.number_input(
-        f"${symbol}$ of the {loop} loop, exactly",
-        min_value=low,
-        max_value=high,
-        step=None,
-        format="%.6g",
+    design_number(
+        name,
+        f"{symbol} of the {loop} loop, exactly",
+        key=f"{name}_exact",
+        place=place,
+        under=st.container(),
         label_visibility="collapsed",
-        **state.bound(name, show=float, key=f"{name}_exact"),
     )
 
 
-def _filter(loop: str) -> None:
+def _filter(loop: str, under: DeltaGenerator) -> None:
     """tau_F of a PID by direct synthesis: lambda/N, or outside what cancels the inner zero."""
     if loop == "inner" or state.value("filter_outer") == "N":
-        st.number_input(
-            "$N$",
-            LOWEST_N,
-            HIGHEST_N,
-            step=None,
-            format="%.4g",
+        design_number(
+            f"N_{loop}",
+            "N",
+            under=under,
             width=56,
             help=f"Derivative filter of the {loop} loop: $\\tau_F = \\lambda/N$.",
-            **state.bound(f"N_{loop}"),
         )
 
 
 def _cancel() -> None:
     st.checkbox(
-        "$\\tau_F$ cancels the inner zero",
+        "τF cancels the inner zero",
         help="$\\tau_F = \\eta_1$ of the inner loop in place of $\\lambda/N$; for $K_d \\leq 0$ [PSB].",
         **state.bound(
             "filter_outer",

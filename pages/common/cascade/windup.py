@@ -1,12 +1,17 @@
 """Windup between the loops: what a limited actuator does to a cascade, with and without protection."""
 
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
+from pages.common.parts.number_field import number_field
 from pages.common.parts.panel import show
+from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy, starts, time_responses
+from simc_core import checks
+from simc_core.checks import LARGEST_GAIN
 from simc_core.figures import inner_setpoint_figure, input_figure, output_figure
 from simc_core.loops.nested import CascadeLoop
 from simc_core.notation import number
@@ -33,12 +38,9 @@ def windup_view(study: CascadeStudy) -> None:
         return
     lowest, highest = usual_limits(study)
     low, high, _ = st.columns([1, 1, 3], vertical_alignment="bottom")
-    u_min = low.number_input(
-        "$u_{min}$ ≤ 0", max_value=0.0, value=None, step=None, placeholder=number(lowest, 2), key="u_min"
-    )
-    u_max = high.number_input(
-        "$u_{max}$ ≥ 0", min_value=0.0, value=None, step=None, placeholder=number(highest, 2), key="u_max"
-    )
+    under = st.container()
+    u_min = _limit("u_min", "Lowest u", lowest, (-LARGEST_GAIN, 0.0), low, under)
+    u_max = _limit("u_max", "Highest u", highest, (0.0, LARGEST_GAIN), high, under)
     limits = lowest if u_min is None else u_min, highest if u_max is None else u_max
     with st.spinner("Simulating three ways"):
         curves = family(study.loop, *limits, t_end=starts(time_responses(study)[0][1])[0])
@@ -53,6 +55,26 @@ def windup_view(study: CascadeStudy) -> None:
         f"Unit step of the set point from rest, u between {number(limits[0], 3)} and {number(limits[1], 3)}. "
         "Deviations from the working point, so that the limits enclose 0."
     )
+
+
+def _limit(
+    name: str,
+    label: str,
+    usual: float,
+    bounds: tuple[float, float],
+    place: DeltaGenerator,
+    under: DeltaGenerator,
+) -> float | None:
+    """A limit of u to type, for this view alone; None while the field is empty."""
+
+    def check(value: float | None) -> None:
+        if value is not None:
+            checks.real(label, value, *bounds)
+
+    value = state.memory(name, lambda: None)
+    take = partial(state.remember, name)
+    number_field(label, value, check, take, name, optional=True, place=place, under=under, placeholder=number(usual, 2))
+    return value
 
 
 def usual_limits(study: CascadeStudy) -> tuple[float, float]:

@@ -4,6 +4,7 @@ import math
 
 import streamlit as st
 
+from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
@@ -34,13 +35,12 @@ def choices() -> None:
     """Order, sampling period, set of rules."""
     order, h, rules = st.columns([3, 2, 4], vertical_alignment="bottom")
     order.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
-    h.number_input(
+    design_number(
+        "h",
         "Sampling allowed for in θ",
-        0.0,
-        1e9,
-        format="%.4g",
+        place=h,
+        under=st.container(),
         help="Sampling period of a digital controller; half of it counts as dead time. 0: continuous.",
-        **state.bound("h"),
     )
     rules.segmented_control(
         "Rules for zeros",

@@ -136,10 +136,15 @@ def change(**values) -> None:
 
     Raises InvalidParameter and then changes nothing.
     """
+    replace_design(with_changes(**values))
+
+
+def with_changes(**values) -> Design:
+    """The design with other fields, which is not yet in use. Raises InvalidParameter."""
     design = design_now()
     for name, value in values.items():
         design = put(design, name, value)
-    replace_design(design)
+    return design
 
 
 def replace_design(design: Design) -> None:

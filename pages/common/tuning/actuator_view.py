@@ -6,13 +6,13 @@ from html import escape
 import streamlit as st
 
 from pages.common.parts import strip
+from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
 from pages.common.session.design import Actuator
 from pages.common.studies.single import Study
 from pages.common.tuning.guards import proposal
-from simc_core.checks import LARGEST_GAIN, LONGEST_TIME
 from simc_core.figures import built_input_figure, built_output_figure, palette
 from simc_core.notation import number
 from simc_core.studies.advice import Advice
@@ -75,7 +75,7 @@ def words(actuator: Actuator) -> str:
 def actuator_view(study: Study, actuator: Actuator) -> None:
     """Inputs on top; numbers; y and u as built over the linear loop."""
     st.html(strip.STYLE + STYLE)
-    _inputs(actuator)
+    _inputs()
     with st.container(key="built_guards", gap="xsmall"):
         for item in guards_of(study, actuator):
             proposal(item)
@@ -96,18 +96,16 @@ def guards_of(study: Study, actuator: Actuator) -> list[Advice]:
     return [*out_of_reach(study.loop.plant, actuator.scenario), *([sampled] if sampled else [])]
 
 
-def _inputs(actuator: Actuator) -> None:
-    zero_is_the_other = {"u_min": -1 / LARGEST_GAIN if actuator.u_max == 0 else 0.0}
-    zero_is_the_other["u_max"] = 1 / LARGEST_GAIN if actuator.u_min == 0 else 0.0
+def _inputs() -> None:
     with st.container(key="actuator_inputs"):
-        _number("Lowest u", "u_min", -LARGEST_GAIN, zero_is_the_other["u_min"], LIMIT, "no limit")
-        _number("Highest u", "u_max", zero_is_the_other["u_max"], LARGEST_GAIN, LIMIT, "no limit")
-        _number("Tracking time", "T_t", 1 / LONGEST_TIME, LONGEST_TIME, TRACKING, "automatic")
-        _number("Sampling of the controller", "sampling", 0.0, LONGEST_TIME, SAMPLING)
-        _number("Measurement noise (std. dev.)", "noise", 0.0, LARGEST_GAIN, NOISE)
-        _number("Random seed", "seed", 0, 2**32 - 1, "The same number gives the same noise.")
-        _number("Set-point step", "r", -LARGEST_GAIN, LARGEST_GAIN, HEIGHTS)
-        _number("Load step", "d", -LARGEST_GAIN, LARGEST_GAIN, HEIGHTS)
+        _number("Lowest u", "u_min", LIMIT, "no limit")
+        _number("Highest u", "u_max", LIMIT, "no limit")
+        _number("Tracking time", "T_t", TRACKING, "automatic")
+        _number("Sampling of the controller", "sampling", SAMPLING)
+        _number("Measurement noise (std. dev.)", "noise", NOISE)
+        _number("Random seed", "seed", "The same number gives the same noise.")
+        _number("Set-point step", "r", HEIGHTS)
+        _number("Load step", "d", HEIGHTS)
 
 
 LIMIT = (
@@ -122,20 +120,9 @@ NOISE = "Standard deviation of the measurement noise, in the unit of y; a new va
 HEIGHTS = "Height of the step. It matters where u has limits: twice the step is not twice the response."
 
 
-def _number(label: str, name: str, low, high, help_: str, empty: str | None = None) -> None:
-    """A number of the actuator by its name in links.py; empty: what no number means, None where there must be one."""
-    whole = isinstance(low, int)
-    st.number_input(
-        label,
-        low,
-        high,
-        "min" if empty is None else None,  # None: it can be emptied
-        step=1 if whole else None,
-        format=None if whole else "%.6g",
-        help=help_,
-        placeholder=empty,
-        **state.bound(name, optional=empty is not None),
-    )
+def _number(label: str, name: str, help_: str, empty: str | None = None) -> None:
+    """A number of the actuator by its name in design.py; empty: what no number means, None where there must be one."""
+    design_number(name, label, optional=empty is not None, help=help_, placeholder=empty)
 
 
 def numbers_html(found: AsBuilt) -> str:

@@ -21,7 +21,7 @@ HEIGHT = 420  # px
 def model_error_view(study: Study) -> None:
     """A change in per cent to choose; worst Ms with its corner, exact limits, and both bundles."""
     percent = st.slider(
-        "Change of $k$, $\\theta$ and $\\tau_1$, each up or down by",
+        "Change of k, θ and τ₁, each up or down by",
         5,
         80,
         20,

@@ -5,12 +5,12 @@ import math
 import streamlit as st
 
 from pages.common.parts.copyable import copyable
+from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
 from pages.common.parts.settings_text import STRUCTURE, as_text
 from pages.common.session import state
 from pages.common.session.design import KINDS
 from pages.common.studies.single import Study
-from simc_core.checks import LONGEST_TIME
 from simc_core.controllers.forms import FORMS, IController
 from simc_core.errors import FormError
 from simc_core.notation import latex, number
@@ -48,13 +48,8 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
         slide, place = st.columns([5, 3], vertical_alignment="bottom", gap="small")
         with slide:
             _slider(model, tau_c)
-    place.number_input(
-        "exactly" if slider else r"$\tau_c$ exactly",
-        min_value=1 / LONGEST_TIME,
-        max_value=LONGEST_TIME,
-        step=None,
-        format="%.6g",
-        **state.bound("tau_c", show=lambda value: float(value or tau_c), key="tau_c_exact"),
+    design_number(
+        "tau_c", "τc exactly", show=lambda value: value or tau_c, key="tau_c_exact", place=place, under=st.container()
     )
     _presets(study)
 
@@ -63,7 +58,7 @@ def _slider(model: Model, tau_c: float) -> None:
     scale, unit = (model.theta, "θ") if model.theta else (default_tau_c(model), "")
     ratios = [10 ** (i / STEPS_PER_DECADE) for i in range(SHORTEST * STEPS_PER_DECADE, LONGEST * STEPS_PER_DECADE + 1)]
     st.select_slider(
-        r"Speed: $\tau_c$",
+        "Speed: τc",
         ratios,
         format_func=lambda ratio: f"{number(ratio, 3)} {unit}".strip(),
         help=r"The closed-loop time constant $\tau_c$ is the one tuning knob of SIMC: small is fast, large is robust "
@@ -86,26 +81,23 @@ def structure() -> None:
         help="PI takes the first-order model, PID the second-order one.",
         **state.bound("order", show=lambda order: KINDS[order - 1], read=lambda shown: KINDS.index(shown) + 1),
     )
-    row.number_input(
-        "$b$",
-        0.0,
-        2.0,
-        step=0.1,
+    under = st.container()
+    design_number(
+        "b",
+        "b",
+        place=row,
+        under=under,
         width=54,
-        format="%.3g",
         help="Set-point weight: the proportional action sees $b\\,r - y$. Less than 1 softens set-point steps; "
         "stability and load response stay as they are.",
-        **state.bound("b"),
     )
-    row.number_input(
-        r"$\tau_F/\tau_D$",
-        0.0,
-        10.0,
-        step=0.01,
+    design_number(
+        "filter",
+        "τF/τD",
+        place=row,
+        under=under,
         width=60,
-        format="%.3g",
         help="Derivative filter, 0 for none. It acts inside the loop: margins are computed with it.",
-        **state.bound("filter"),
     )
 
 

@@ -1,0 +1,142 @@
+"""The number field of the whole app: decimal comma or point, 11/5, any minus sign; what was typed stays as typed.
+
+Streamlit's own number field drops a comma, so that 0,5 becomes 5. This one is a text field read by the core. A text
+that cannot be read, or a number that cannot be used, stays in the field with the reason below it, while the last good
+value stays in use.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
+
+from pages.common.parts.foreign_text import told
+from pages.common.parts.symbols import symbols
+from pages.common.session import state
+from pages.common.session.design import PLACES
+from simc_core.errors import SimcError
+from simc_core.numbers import read_number
+
+DIGITS = 6  # shown where they are all there are
+
+
+@dataclass(slots=True)
+class _Typed:
+    """What stands in a field, the value in use that it was last seen with, and why it cannot be used itself."""
+
+    text: str
+    value: float | None
+    why: str = ""
+
+
+def number_field(
+    label: str,
+    value: float | None,
+    check: Callable[[float | None], object],
+    take: Callable[[float | None], object],
+    key: str,
+    *,
+    optional: bool = False,
+    place: DeltaGenerator | None = None,
+    under: DeltaGenerator | None = None,
+    **options,
+) -> None:
+    """A field for one number.
+
+    Parameters
+    ----------
+    label
+        Name of the field, in plain words or Unicode; messages use it too.
+    value
+        The number in use, None for none.
+    check
+        Raises SimcError where a number cannot be used, and changes nothing.
+    take
+        Puts a number that passed `check` to use.
+    key
+        Of the widget.
+    optional
+        Whether the field may be empty, which gives None.
+    place, under
+        Where the field stands, and where a refusal is told; below the field unless given.
+    **options
+        Of st.text_input: help, placeholder, width, label_visibility.
+    """
+    typed = state.memory(f"number_{key}", lambda: _Typed(shown(value), value))
+    if typed.value != value or (typed.why and not _refusal(label, typed.text, check, optional)):
+        typed.text, typed.value, typed.why = shown(value), value, ""
+    state.set_widget(key, typed.text)
+    place = place or st.container(width=options.get("width", "stretch"))
+    place.text_input(label, key=key, on_change=_read, args=(label, typed, check, take, key, optional), **options)
+    if typed.why:
+        in_use = f"{shown(value)} stays in use." if shown(value) else "It stays empty."
+        (under or place).error(f"{typed.why}. {in_use}")
+
+
+def design_number(name: str, label: str, *, show: Callable = lambda value: value, key: str = "", **options) -> None:
+    """A number field for the field of the design with this name in design.py.
+
+    show: the number in use, from the design's own, which may be None for a default.
+    **options: of `number_field`.
+    """
+
+    def check(value: float | None) -> None:
+        try:
+            state.with_changes(**{name: value})
+        except SimcError as error:
+            raise _named(error, PLACES[name][1], label) from None
+
+    number_field(
+        label,
+        show(state.value(name)),
+        check,
+        partial(_change, name),
+        key or f"widget_{name}",
+        **options,
+    )
+
+
+def shown(value: float | None) -> str:
+    """The shortest text that reads back as the very number: 0.1, 12345.678, 1e-7; empty for None."""
+    if value is None:
+        return ""
+    text = f"{value:.{DIGITS}g}"
+    return text if float(text) == value else repr(value).removesuffix(".0")
+
+
+def _read(label: str, typed: _Typed, check: Callable, take: Callable, key: str, optional: bool) -> None:
+    """Callback: use what was typed, or say why not."""
+    typed.text = (state.widget(key) or "").strip()
+    typed.why = _refusal(label, typed.text, check, optional)
+    if not typed.why:
+        typed.value = _number(label, typed.text, optional)
+        take(typed.value)
+
+
+def _refusal(label: str, text: str, check: Callable, optional: bool) -> str:
+    """Why this cannot be used, as Markdown; empty where it can."""
+    try:
+        number = _number(label, text, optional)
+    except SimcError as error:
+        return told(str(error))
+    try:
+        check(number)
+    except SimcError as error:
+        return symbols(str(error))  # of a number: nothing foreign in it
+    return ""
+
+
+def _number(label: str, text: str, optional: bool) -> float | None:
+    return None if optional and not text else read_number(label, text)
+
+
+def _named(error: SimcError, name: str, label: str) -> SimcError:
+    """The error with the field called as it is on the page."""
+    rest = str(error).removeprefix(name)
+    return error if rest == str(error) else SimcError(label + rest)
+
+
+def _change(name: str, value: float | None) -> None:
+    state.change(**{name: value})
