@@ -1,57 +1,76 @@
-"""One knob, tau_c: the controller it gives, and what that controller does to the full plant."""
+"""The controller, by SIMC with its one knob tau_c or by my settings, and what it does to the full plant."""
 
 import streamlit as st
 
-from pages.common import live
 from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
 from pages.common.shell import header
-from pages.common.studies.single import study
+from pages.common.studies.single import attempt, present_study, study
 from pages.common.tuning import guards
 from pages.common.tuning.actuator_view import actuator_view, mark
+from pages.common.tuning.drag import drag
 from pages.common.tuning.model_error_view import model_error_view
+from pages.common.tuning.open_plant import open_plant
 from pages.common.tuning.panels import open_loop, panels
 from pages.common.tuning.pinned import design_table, pin_button, pinned_studies
 from pages.common.tuning.readout import readout
+from pages.common.tuning.source import NOW, change_in_words, in_the_plant_now, my_settings, show_source, source_control
 from pages.common.tuning.widgets import settings, structure, tau_c_control
 
-VIEWS = ("Live", "Figures", "Bode of L", "Model error", "Actuator", "Compare")
+VIEWS = ("Live", "Figures", "Bode of L", "Model error", "As built", "Compare")
 
 design = header.show("tuning")
-with explain_refusal():
-    present = study(design.plant, design.tuning)
-    mark(design.actuator, "narrow")
-    with st.container(key="tuning"):
-        controls, view = st.columns([4, 11], gap="medium")
-    with controls:
-        mark(design.actuator, "wide")
+made, refusal = attempt(lambda: study(design.plant, design.tuning))
+own = design.source == "own"
+present, refusal = attempt(lambda: present_study(design)) if own else (made, refusal)
+mark(design.actuator, "narrow")
+with st.container(key="tuning"):
+    controls, view = st.columns([4, 11], gap="medium")
+with controls:
+    mark(design.actuator, "wide")
+    show_source()
+    source_control(design.plant, made)
+    if own:
+        my_settings(made)
+    elif present:
         tau_c_control(present, slider=state.widget("views", VIEWS[0]) != VIEWS[0])
+    if not own:
         structure()
+    if present:
         settings(present)
-        pin_button(design.tuning, present.tau_c)
+        pin_button(present)
         guards.show(present)
-    with view:
-        studies = [("present", present), *pinned_studies(design.plant, design.pins)]
-        instrument, figures, bode, error, built, table = st.tabs(
-            VIEWS, key="views", on_change="rerun"
-        )  # only the open one is made
-        if instrument.open:
-            with instrument:
-                live.tuning_instrument(design.plant, studies)
-        if figures.open:
-            with figures:
-                readout(present)
-                panels(studies)
-        if bode.open:
-            with bode:
-                open_loop(studies)
-        if error.open:
-            with error:
-                model_error_view(present)
-        if built.open:
-            with built:
-                actuator_view(present, design.actuator)
-        if table.open:
-            with table:
-                design_table(studies)
-                guards.poles(present)
+    baseline = in_the_plant_now(design.plant, present)
+with view:
+    if present is None:
+        with explain_refusal():
+            raise refusal
+        open_plant(design.plant)
+        st.stop()
+    if baseline:
+        st.markdown(f"**Against the settings now:** {change_in_words(baseline, present)}")
+    behind = [*([(NOW, baseline)] if baseline else []), *pinned_studies(design.plant, design.pins)]
+    studies = [("present", present), *behind]
+    instrument, figures, bode, error, built, table = st.tabs(
+        VIEWS, key="views", on_change="rerun"
+    )  # the open one is made
+    if instrument.open:
+        with instrument:
+            drag(design.plant, present, behind)
+    if figures.open:
+        with figures:
+            readout(present)
+            panels(studies)
+    if bode.open:
+        with bode:
+            open_loop(studies)
+    if error.open:
+        with error:
+            model_error_view(present)
+    if built.open:
+        with built:
+            actuator_view(present, design.actuator)
+    if table.open:
+        with table:
+            design_table(studies)
+            guards.poles(present)

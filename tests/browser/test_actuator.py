@@ -20,7 +20,7 @@ def traces(page, key: str) -> list:
 def test_limits_are_typed_drawn_linked_and_taken_away_again(server, open_page):
     page = open_page(f"{server}/tuning?plant={EXAMPLE}&tau_c=2")
     expect(page.get_by_text("As built:")).to_have_count(0)
-    page.get_by_role("tab", name="Actuator").click()
+    page.get_by_role("tab", name="As built").click()
     idle(page)
     highest = page.get_by_role("spinbutton", name="Highest u")
     highest.fill("1.1")
@@ -39,7 +39,7 @@ def test_limits_are_typed_drawn_linked_and_taken_away_again(server, open_page):
 
 def test_every_view_says_that_the_loop_as_built_is_another(server, open_page):
     page = open_page(server + LIMITED)
-    for view in ("Live", "Figures", "Bode of L", "Model error", "Compare", "Actuator"):
+    for view in ("Live", "Figures", "Bode of L", "Model error", "Compare", "As built"):
         page.get_by_role("tab", name=view).click()
         idle(page)
         box = page.locator(".st-key-mark_wide").bounding_box()
@@ -57,7 +57,7 @@ def test_every_view_says_that_the_loop_as_built_is_another(server, open_page):
 def test_the_view_fits_and_reads_well(width, theme, server, open_page):
     page = open_page(f"{server}{LIMITED}&noise=0.01&sampling=0.5", width, theme)
     expect(page.locator(".st-key-mark_" + ("wide" if width == 1280 else "narrow"))).to_be_visible()
-    page.get_by_role("tab", name="Actuator").click()
+    page.get_by_role("tab", name="As built").click()
     idle(page)
     page.locator(".st-key-figure_built_u .main-svg").first.wait_for()
     page.locator(".strip.built").scroll_into_view_if_needed()

@@ -8,10 +8,10 @@ import pytest
 from .tools import address, run_page, texts
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1
-VIEWS = ("Live", "Figures", "Bode of L", "Model error", "Actuator", "Compare")
+VIEWS = ("Live", "Figures", "Bode of L", "Model error", "As built", "Compare")
 
 
-def opened(view="Actuator", **parameters):
+def opened(view="As built", **parameters):
     return run_page("tuning", view, plant=EXAMPLE, **parameters)
 
 

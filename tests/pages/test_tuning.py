@@ -203,7 +203,9 @@ def test_the_set_point_weight_changes_the_response_and_not_the_margins():
 def test_what_the_rules_do_not_cover_is_said_in_words(plant, words):
     app = tuned(plant=plant)
     assert words in texts(app)
-    assert not app.get("plotly_chart")
+    assert len(specs(app)) == 2  # the plant alone: its step response and its Bode diagram
+    assert "Ms" not in "".join(item.proto.body for item in app.get("html") if '<div class="strip' in item.proto.body)
+    assert {"controller_source", "widget_order"} <= {control.key for control in app.get("button_group")}
 
 
 @pytest.mark.parametrize(

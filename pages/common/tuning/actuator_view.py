@@ -19,7 +19,7 @@ from simc_core.studies.advice import Advice
 from simc_core.studies.built_advice import error_integral, out_of_reach, protections_compared, sampling_not_in_tuning
 from simc_core.studies.with_actuator import AsBuilt, BuiltNumbers, as_built
 
-VIEW = "Actuator"
+VIEW = "As built"
 HEIGHT = 330  # px
 DIGITS = 3
 NARROW = "@media (max-width: 640px)"

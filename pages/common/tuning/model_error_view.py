@@ -12,6 +12,7 @@ from simc_core.figures.robustness import band_figure, bundle_figure
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import Loop
 from simc_core.notation import number
+from simc_core.plants.models import UnstableDelay
 from simc_core.simulation import Scenario, TimeResponse, simulate
 from simc_core.studies.plant_family import Robustness, robustness
 
@@ -48,13 +49,15 @@ def model_error_view(study: Study) -> None:
 def summary(study: Study, found: Robustness, percent: int) -> str:
     """Worst case and exact limits in words."""
     worst, lines = found.worst_corner, []
+    free = study.tuned and not isinstance(study.model, UnstableDelay)  # whose rule knows one tau_c
+    remedy = " *Increase $\\tau_c$.*" if free else ""
     if worst.stable:
         lines.append(f"Worst $M_s$ at ±{percent} %: **{number(found.worst.Ms)}**, worst corner {symbols(worst.name)}.")
     else:
         lost = sum(not case.stable for case in found.corners)
         lines.append(
             f"**Not stable in {lost} of {len(found.corners)} corners** at ±{percent} %, "
-            f"among them {symbols(worst.name)}. *Increase $\\tau_c$.*"
+            f"among them {symbols(worst.name)}.{remedy}"
         )
     if study.stable:
         lines.append(limits(study.loop, found))

@@ -1,10 +1,14 @@
 """Designs set aside and compared with the present one: pinning, names, the table."""
 
+import math
+from dataclasses import replace
+
 import streamlit as st
 
 from pages.common.session import state
 from pages.common.session.design import MOST_PINS, Tuning
-from pages.common.studies.single import Study, study
+from pages.common.studies.single import Study, study, study_of_settings
+from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
 from simc_core.notation import number
 from simc_core.plants.plant import Plant
@@ -18,30 +22,30 @@ LABELS = (
 )
 
 
-def pinned_studies(plant: Plant, pins: tuple[Tuning, ...]) -> list[tuple[str, Study]]:
+def pinned_studies(plant: Plant, pins: tuple[Tuning | Controller, ...]) -> list[tuple[str, Study]]:
     """The pinned designs, round the present plant; one that this plant does not allow is named and left out."""
     found = []
-    for letter, tuning in zip(LETTERS, pins, strict=False):
+    for letter, pin in zip(LETTERS, pins, strict=False):
         try:
-            found.append((letter, study(plant, tuning)))
+            found.append((letter, study(plant, pin) if isinstance(pin, Tuning) else study_of_settings(plant, pin)))
         except SimcError as error:
             st.caption(f"Pinned design {letter} does not suit this plant: {error}")
     return found
 
 
-def pin_button(tuning: Tuning, tau_c: float) -> None:
+def pin_button(present: Study) -> None:
     """Set the present design aside, with its tau_c as a number, so that it stays what it was."""
     pins = state.value("pins")
     full = len(pins) >= MOST_PINS
     pin, clear = st.columns(2)
     pin.button(
-        f"Pin as {LETTERS[len(pins)]}" if not full else "Four pinned",
+        f"Pin as {LETTERS[len(pins)]}" if not full else "Pin (4 of 4 used)",
         key="pin",
         disabled=full,
         width="stretch",
         help="Set this design aside and compare it with the next one: overlaid in the figures, and in the table.",
         on_click=_pin,
-        args=(pins, tuning, tau_c),
+        args=(pins, present),
     )
     clear.button(
         "Unpin all", key="unpin", disabled=not pins, width="stretch", on_click=state.change, kwargs={"pins": ()}
@@ -69,7 +73,8 @@ def facts(each: Study) -> dict[str, str]:
     """What the table says of a design by LABELS, four significant digits."""
     settings = each.controller.to_parallel()
     kind = "PID" if settings.Kd else "PI" if settings.Kp else "I"
-    numbers = (each.tau_c, settings.Kp, settings.Ki, settings.Kd, settings.tau_F, settings.b)
+    tau_c = math.nan if each.tau_c is None else each.tau_c
+    numbers = (tau_c, settings.Kp, settings.Ki, settings.Kd, settings.tau_F, settings.b)
     found = [kind, *map(number, numbers)]
     if not each.stable:
         return dict(zip(LABELS, [*found, "not stable"], strict=False))
@@ -82,7 +87,7 @@ def facts(each: Study) -> dict[str, str]:
     return dict(zip(LABELS, [*found, *map(number, judgement)], strict=True))
 
 
-def _pin(pins: tuple[Tuning, ...], tuning: Tuning, tau_c: float) -> None:
-    present = Tuning(tuning.order, tuning.h, tau_c, tuning.b, tuning.filter, tuning.rules)
-    if present not in pins:
-        state.change(pins=(*pins, present))
+def _pin(pins: tuple[Tuning | Controller, ...], present: Study) -> None:
+    pin = replace(present.tuning, tau_c=present.tau_c, speed="") if present.tuned else present.controller
+    if pin not in pins:
+        state.change(pins=(*pins, pin))

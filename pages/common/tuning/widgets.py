@@ -11,6 +11,7 @@ from pages.common.parts.settings_text import STRUCTURE, as_text
 from pages.common.session import state
 from pages.common.session.design import KINDS
 from pages.common.studies.single import Study
+from pages.common.tuning.source import action, change_form
 from simc_core.controllers.forms import FORMS, IController
 from simc_core.errors import FormError
 from simc_core.notation import latex, number
@@ -57,19 +58,26 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
 def _slider(model: Model, tau_c: float) -> None:
     scale, unit = (model.theta, "θ") if model.theta else (default_tau_c(model), "")
     ratios = [10 ** (i / STEPS_PER_DECADE) for i in range(SHORTEST * STEPS_PER_DECADE, LONGEST * STEPS_PER_DECADE + 1)]
+    state.set_widget("tau_c_slider", nearest(ratios, tau_c / scale))
     st.select_slider(
-        "Speed: τc",
+        "Closed-loop time constant τc",
         ratios,
         format_func=lambda ratio: f"{number(ratio, 3)} {unit}".strip(),
         help=r"The closed-loop time constant $\tau_c$ is the one tuning knob of SIMC: small is fast, large is robust "
         r"and gentle on the input [SK03 sect. 3.3]. $\tau_c = \theta$ is tight.",
-        **state.bound(
-            "tau_c",
-            show=lambda value: nearest(ratios, (value or tau_c) / scale),
-            read=lambda ratio: ratio * scale,
-            key="tau_c_slider",
-        ),
+        key="tau_c_slider",
+        on_change=_slid,
+        args=(scale, bool(unit)),
     )
+
+
+def _slid(scale: float, of_theta: bool) -> None:
+    """A multiple of theta stays one when the plant changes."""
+    ratio = state.widget("tau_c_slider")
+    if of_theta:
+        state.change(tau_c=None, speed=f"{ratio:.6g}theta")
+    else:
+        state.change(tau_c=ratio * scale)
 
 
 def structure() -> None:
@@ -105,6 +113,8 @@ def settings(study: Study) -> None:
     """The controller in the form chosen, typeset, and as text to copy with all its digits."""
     form = state.value("form")
     st.segmented_control("Form", FORMS, label_visibility="collapsed", **state.bound("form"))
+    if study.tuned is None:
+        change_form(form)
     try:
         shown = study.controller.in_form(form)
     except FormError as error:
@@ -114,6 +124,7 @@ def settings(study: Study) -> None:
     st.markdown(f"$C(s) = {structure}$")
     st.markdown(f"$\\phantom{{C(s)}} = {latex(shown)}$")
     copyable(as_text(study.controller, form), "settings_text")
+    st.caption(action(study.controller))
 
 
 def _presets(study: Study) -> None:

@@ -1,0 +1,44 @@
+"""What is dragged in the live view: tau_c, the settings, or the plant with the controller kept."""
+
+import streamlit as st
+
+from pages.common import live
+from pages.common.session import state
+from pages.common.studies.single import Study
+from pages.common.tuning.source import change_in_words
+from simc_core.plants.plant import Plant
+
+KNOBS = {"tau_c": "τc", "settings": "Settings", "plant": "What if the plant changes"}
+
+
+def drag(plant: Plant, present: Study, behind: list[tuple[str, Study]]) -> None:
+    """The choice of what is dragged, and its instrument. behind: designs that are drawn behind, by name."""
+    offered = [name for name in KNOBS if name != "tau_c" or present.tuned]
+    if state.widget("drag", offered[0]) not in offered:
+        state.set_widget("drag", offered[0])
+    chosen = st.segmented_control(
+        "Drag", offered, default=offered[0], required=True, format_func=KNOBS.get, key="drag", persist_state="session"
+    )
+    if chosen == "tau_c":
+        live.tuning_instrument(plant, [("present", present), *behind])
+    elif chosen == "settings":
+        live.hand_instrument(present, behind, settings=True)
+    else:
+        _what_if(present, behind)
+
+
+def _what_if(present: Study, behind: list[tuple[str, Study]]) -> None:
+    """The plant is dragged, the controller stays; nothing of the design changes unless that is asked for."""
+    turned = live.hand_instrument(present, [("as designed", present), *behind], settings=False)
+    if turned.loop.plant == present.loop.plant:
+        st.caption("The controller stays as it is. Drag the gain, the dead time or the largest time constant.")
+        return
+    words, back, take = st.columns([6, 2, 2], vertical_alignment="center")
+    words.markdown(f"**With this plant, the same settings:** {change_in_words(present, turned)}")
+    back.button("Back to the plant", width="stretch", key="what_if_back", on_click=live.put_back)
+    take.button(
+        "Make it the plant",
+        width="stretch",
+        key="what_if_take",
+        on_click=lambda: state.change(plant=turned.loop.plant),
+    )

@@ -1,0 +1,144 @@
+"""Where the controller comes from: SIMC, or my settings; and the settings that are in the plant now."""
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import streamlit as st
+
+from pages.common.parts.number_field import number_field
+from pages.common.session import state
+from pages.common.studies.single import Study, study_of_settings
+from simc_core.controllers.forms import Controller, IController, IdealPid
+from simc_core.errors import FormError, SimcError
+from simc_core.plants.plant import Plant
+from simc_core.studies.retune import what_changes
+
+SOURCES = {"simc": "SIMC", "own": "My settings"}
+LABELS = {"Kc": "Kc", "tau_I": "τI", "tau_D": "τD", "Kp": "Kp", "Ki": "Ki", "Kd": "Kd", "K_I": "KI", "tau_F": "τF"}
+FIRST = IdealPid(1.0, 10.0)  # where there is nothing to take over
+NOW = "now"  # its name in figures, tables and legends
+
+
+def source_control(plant: Plant, made: Study | None) -> None:
+    """SIMC or my settings. made: what SIMC gives, to be taken over; None where its rules end."""
+    st.segmented_control(
+        "Controller from",
+        list(SOURCES),
+        format_func=SOURCES.get,
+        required=True,
+        key="controller_source",
+        on_change=_choose,
+        args=(made.controller if made else FIRST,),
+    )
+
+
+def show_source() -> None:
+    """Put the choice of the design into the widget, before it is made."""
+    state.set_widget("controller_source", state.value("controller"))
+
+
+def _choose(offered: Controller) -> None:
+    chosen = state.widget("controller_source")
+    if chosen == "own" and state.value("own") is None:
+        state.change(own=_shown_in_form(offered))
+    state.change(controller=chosen)
+
+
+def _shown_in_form(controller: Controller) -> Controller:
+    form = state.value("form")
+    return controller.in_form(form) if controller.has_form(form) else controller
+
+
+def my_settings(made: Study | None) -> None:
+    """Fields for my settings; an empty τI is a controller without integral action."""
+    settings_fields(state.value("own"), "own", lambda changed: state.change(own=changed))
+    if made:
+        st.button(
+            "Take over the SIMC settings",
+            key="take_over",
+            width="stretch",
+            help="Copies what SIMC gives for this plant into the fields, to be changed by hand.",
+            on_click=lambda: state.change(own=_shown_in_form(made.controller)),
+        )
+
+
+def settings_fields(controller: Controller, key: str, take: Callable[[Controller], None]) -> None:
+    """The settings of a controller as number fields, in its own form."""
+    names = [*controller.SETTINGS, *(() if isinstance(controller, IController) else ("tau_F", "b", "c"))]
+    for row in (names[:3], names[3:]):
+        places = st.columns(3, gap="small") if row else ()
+        for name, place in zip(row, places, strict=False):
+            _field(controller, name, f"{key}_{type(controller).__name__}_{name}", take, place)
+
+
+def _field(controller: Controller, name: str, key: str, take: Callable, place) -> None:
+    value = getattr(controller, name)
+    optional = name == "tau_I"
+
+    def changed(number: float | None) -> Controller:
+        return replace(controller, **{name: math.inf if number is None else number})
+
+    number_field(
+        LABELS.get(name, name),
+        None if math.isinf(value) else value,
+        changed,
+        lambda number: take(changed(number)),
+        key,
+        optional=optional,
+        place=place,
+        help=HELP.get(name),
+        placeholder="none" if optional else None,
+    )
+
+
+HELP = {
+    "tau_I": "Integral time. Empty: no integral action, a P or PD controller.",
+    "tau_D": "Derivative time, 0 for none.",
+    "tau_F": "Filter over the whole controller, 1/(τF s + 1).",
+    "b": "Set-point weight of the proportional action: it sees b r − y.",
+    "c": "Set-point weight of the derivative action: 0 acts on the measurement alone, 1 on the error.",
+}
+
+
+def in_the_plant_now(plant: Plant, present: Study | None) -> Study | None:
+    """The baseline: fields for it, and its study around this plant; None where none was told."""
+    now = state.value("now")
+    with st.expander("In the plant now" if now is None else "In the plant now: compared", expanded=False):
+        if now is None:
+            st.caption("Settings that are in your controller today, to see what a change brings and costs.")
+            offered = present.controller if present else FIRST
+            st.button("Enter them", key="now_begin", on_click=lambda: state.change(now=_shown_in_form(offered)))
+            return None
+        settings_fields(now, "now", lambda changed: state.change(now=changed))
+        st.button("Forget them", key="now_end", on_click=lambda: state.change(now=None))
+    try:
+        return study_of_settings(plant, now)
+    except SimcError as error:
+        st.caption(f"The settings in the plant now do not suit this plant: {error}")
+        return None
+
+
+def change_in_words(baseline: Study, present: Study) -> str:
+    """What going from the settings now to those of the design brings and costs."""
+    return what_changes((baseline.margins, baseline.performance), (present.margins, present.performance))
+
+
+def change_form(form: str) -> None:
+    """My settings in another form, where they have it."""
+    own = state.value("own")
+    if own is None:
+        return
+    try:
+        state.change(own=own.in_form(form))
+    except FormError as error:
+        st.toast(str(error))
+
+
+def action(controller: Controller) -> str:
+    """Direct or reverse, as the switch in a control system calls it."""
+    form = controller.to_parallel()
+    gain = form.Kp or form.Ki or form.Kd
+    if gain > 0:
+        return "Reverse action: the output falls when PV rises."
+    return "Direct action: the output rises when PV rises. A control system takes the gain without its sign."

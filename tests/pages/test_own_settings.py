@@ -1,0 +1,84 @@
+"""My settings, those in the plant now, and a plant that is dragged: nothing of it is made by SIMC."""
+
+import pytest
+
+from pages.common.live.hand import table
+from pages.common.session import links
+from pages.common.session.design import Design
+from pages.common.studies.single import present_study, study_of_settings
+from pages.common.tuning.source import action
+from simc_core import IController, IdealPid, InvalidParameter, ParallelPid, Plant, SeriesPid, margins
+
+from .tools import address, run_page, texts
+
+HEATER = "2.2exp(-20s)/(180s+1)"
+NOW = "ideal~1.2~240~0~0~1~0"
+
+
+def strip(app):
+    (html,) = [item.proto.body for item in app.get("html") if '<div class="strip' in item.proto.body]
+    return html
+
+
+def test_my_settings_are_what_is_judged():
+    """Ideal PI Kc 1.2, tau_I 240 on the heater: load IAE is tau_I/Kc = 200, since e does not change sign."""
+    app = run_page("tuning", "Figures", plant=HEATER, own=NOW, controller="own")
+    assert ">200<" in strip(app)
+    assert ">1.289<" in strip(app)  # faults.md a1, by python-control too
+    assert "τc exactly" not in [field.label for field in app.text_input]
+
+
+def test_simc_settings_are_taken_over_and_changed_by_hand():
+    app = run_page("tuning", "Figures", plant=HEATER, form="ideal")
+    app.button_group(key="controller_source").set_value("own").run()
+    assert address(app)["controller"] == "own"
+    assert links.settings_of(address(app)["own"]).Kc == pytest.approx(180 / 88)
+    field = next(field for field in app.text_input if field.label == "Kc")
+    field.set_value("1,5").run()  # a decimal comma
+    assert links.settings_of(address(app)["own"]).Kc == 1.5
+    field = next(field for field in app.text_input if field.label == "τI")
+    field.set_value("").run()
+    assert links.settings_of(address(app)["own"]).tau_I == float("inf")
+    assert not app.exception
+
+
+def test_a_design_stands_against_the_settings_in_the_plant_now():
+    app = run_page("tuning", "Figures", plant=HEATER, now=NOW)
+    assert "Load IAE 2.6 times smaller" in texts(app)
+    assert "Ms 1.29 → 1.6" in texts(app)
+
+
+def test_the_action_is_named():
+    assert action(SeriesPid(2.0, 3.0)).startswith("Reverse")
+    assert action(IController(-2.0)).startswith("Direct")
+
+
+def test_own_settings_of_every_form_can_be_judged_and_pinned():
+    for controller in (SeriesPid(1, 5), IdealPid(1, 5, 1, 0.1), ParallelPid(1, 0.2, 1, 0.1), IController(0.05)):
+        app = run_page(
+            "tuning", "Compare", plant="2exp(-s)/(5s+1)", own=links.settings_text(controller), controller="own"
+        )
+        assert not app.exception
+        app.button(key="pin").click().run()
+        assert address(app)["pins"] == own
+
+
+def test_knobs_keep_the_sign_of_a_gain_and_their_bounds():
+    subject = table.Subject(Plant(-1.5, 4.0, (20.0, 3.0)), SeriesPid(-1.2, 20.0), settings=True)
+    assert {knob["name"]: knob["value"] for knob in table.knobs(subject)} == {"Kc": 1.2, "tau_I": 20.0, "tau_D": 0.0}
+    assert subject.at({"Kc": 2.0, "tau_I": 30.0, "tau_D": 1.0}).controller == SeriesPid(-2.0, 30.0, 1.0)
+    with pytest.raises(InvalidParameter, match="Kc must be within"):
+        table.allowed(subject, {"Kc": 1e6})
+    with pytest.raises(InvalidParameter, match="got many"):
+        table.allowed(subject, {"Kc": "many"})
+
+
+def test_a_plant_that_is_dragged_keeps_its_controller():
+    """Dead time + 30 % with the settings kept: the delay margin falls by just these 6."""
+    design = Design(Plant(2.2, 20.0, (180.0,)))
+    present = present_study(design)
+    subject = table.Subject(design.plant, present.controller, settings=False)
+    turned = subject.at({"k": 2.2, "theta": 26.0, "tau1": 180.0})
+    assert turned.controller == present.controller
+    assert margins(turned).delay_margin == pytest.approx(present.margins.delay_margin - 6.0, rel=1e-9)
+    assert study_of_settings(turned.plant, turned.controller).tau_c is None
