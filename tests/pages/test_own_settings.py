@@ -55,9 +55,8 @@ def test_the_action_is_named():
 
 def test_own_settings_of_every_form_can_be_judged_and_pinned():
     for controller in (SeriesPid(1, 5), IdealPid(1, 5, 1, 0.1), ParallelPid(1, 0.2, 1, 0.1), IController(0.05)):
-        app = run_page(
-            "tuning", "Compare", plant="2exp(-s)/(5s+1)", own=links.settings_text(controller), controller="own"
-        )
+        own = links.settings_text(controller)
+        app = run_page("tuning", "Compare", plant="2exp(-s)/(5s+1)", own=own, controller="own")
         assert not app.exception
         app.button(key="pin").click().run()
         assert address(app)["pins"] == own

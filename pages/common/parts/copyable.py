@@ -7,7 +7,7 @@ import streamlit as st
 HERE = Path(__file__).parent
 _component = st.components.v2.component(
     "simc_copyable",
-    html='<div><pre tabindex="0"></pre><button type="button">Copy</button></div>',
+    html='<div class="copyable"><pre tabindex="0"></pre><button type="button">Copy</button></div>',
     css=(HERE / "copyable.css").read_text(encoding="utf-8"),
     js=(HERE / "copyable.js").read_text(encoding="utf-8"),
 )

@@ -17,7 +17,14 @@ def drag(plant: Plant, present: Study, behind: list[tuple[str, Study]]) -> None:
     if state.widget("drag", offered[0]) not in offered:
         state.set_widget("drag", offered[0])
     chosen = st.segmented_control(
-        "Drag", offered, default=offered[0], required=True, format_func=KNOBS.get, key="drag", persist_state="session"
+        "Drag",
+        offered,
+        default=offered[0],
+        required=True,
+        format_func=KNOBS.get,
+        key="drag",
+        persist_state="session",
+        label_visibility="collapsed",
     )
     if chosen == "tau_c":
         live.tuning_instrument(plant, [("present", present), *behind])

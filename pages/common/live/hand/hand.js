@@ -19,6 +19,7 @@ export class Hand extends Instrument {
       views: [["responses", "Responses"]],
       hint: "Keys: arrows, Page up and down, Home, End move a knob · L or Esc back",
     });
+    root.classList.add("hand");
     root.querySelector(".play").hidden = true;
   }
 
