@@ -9,6 +9,7 @@ import pytest
 from pages.common.live.cascade import rows as cascade_rows
 from pages.common.live.cascade import table as cascade_table
 from pages.common.session.design import Cascade
+from pages.common.session.sheet import Sheet
 from pages.common.studies.cascade import designed, study
 from simc_core import Plant, stability
 from simc_core.cascade.pairs import PAIRS
@@ -94,7 +95,7 @@ def test_a_cascade_that_is_not_sound_has_no_numbers():
     found, subject, grid = made(cascade)
     assert not found.sound
     assert cascade_table.grid_of(found, shown=50.0).t[-1] == 50.0  # what grows does not change the axis
-    header, _ = unpacked(cascade_table.exact(subject, grid, found, 0))
+    header, _ = unpacked(cascade_table.exact(subject, grid, found, 0, Sheet()))
     assert set(header["metrics"].values()) == {None}
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from pages.common.live.tuning import table
 from pages.common.session.design import Tuning
+from pages.common.session.sheet import Sheet
 from pages.common.studies.single import study
 from simc_core import Plant
 from simc_core.errors import SimcError
@@ -84,7 +85,7 @@ def test_a_table_holds_what_its_header_says_and_pins_share_its_grid():
     assert blocks["y"].shape == blocks["u"].shape == (n, points)
     assert blocks["re"].shape == (n, len(header["omega"]))
     assert blocks["metrics"].shape == (n, len(header["metrics"]))
-    exact_header, exact = unpacked(table.exact(subject, grid, present, "name", 7))
+    exact_header, exact = unpacked(table.exact(subject, grid, present, "name", 7, Sheet()))
     assert exact_header["answers"] == 7
     assert exact_header["metrics"]["Ms"] == present.margins.Ms
     np.testing.assert_array_equal(blocks["pin_y"], exact["y"])

@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import streamlit as st
 
+from pages.common.parts.units import axes_named
+from pages.common.session import state
 from simc_core.figures import Figure, config
 
 NARROW = "@media (max-width: 640px)"
@@ -34,7 +36,7 @@ def field(found: tuple[Panel, ...]) -> None:
 
 def show(figure: Figure, key: str, alt: str) -> None:
     """A figure with hover, zoom and SVG export."""
-    st.plotly_chart(figure, key=f"figure_{key}", config=config(key), alt=alt)
+    st.plotly_chart(axes_named(figure, state.design_now().sheet), key=f"figure_{key}", config=config(key), alt=alt)
 
 
 def _style(keys: list[str], chosen: int) -> str:

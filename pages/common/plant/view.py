@@ -3,6 +3,8 @@
 import streamlit as st
 
 from pages.common.parts.formula import fitted
+from pages.common.parts.units import axes_named
+from pages.common.session import state
 from simc_core import Plant
 from simc_core.figures import bode_figure, config, plant_step_figure, pole_zero_figure
 from simc_core.notation import latex_number
@@ -35,7 +37,7 @@ def figures(plant: Plant) -> None:
         (st, "Bode diagram", bode_figure(plant, height=TALL)),
     ):
         place.markdown(f"**{title}**")
-        place.plotly_chart(figure, key=f"plant {title}", config=config(title))
+        place.plotly_chart(axes_named(figure, state.design_now().sheet), key=f"plant {title}", config=config(title))
 
 
 def _roots(roots) -> str:

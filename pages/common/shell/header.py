@@ -9,6 +9,7 @@ from pages.common.parts.foreign_text import exact, told
 from pages.common.session import project, state
 from pages.common.session.design import Design
 from pages.common.shell.loops_menu import loops_menu
+from pages.common.shell.sheet_form import sheet_form
 from simc_core.figures import palette
 from simc_core.notation import latex
 from simc_core.plants.plant import Plant
@@ -51,6 +52,8 @@ def show(place: str) -> Design:
     st.html(f"<style>{palette.css_variables(':root')}</style>{STYLE}")
     design = state.begin()
     with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
+        if tag := design.sheet.tag:
+            st.markdown(exact(tag), width="content")
         if place == "cascade":
             _block("G_a", design.cascade.primary)
             _block("G_b", design.cascade.secondary)
@@ -61,6 +64,7 @@ def show(place: str) -> Design:
     _notices()
     with st.sidebar:
         loops_menu()
+        sheet_form()
         _take_along()
     return design
 

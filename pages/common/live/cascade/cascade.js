@@ -25,7 +25,7 @@ export class Cascade extends Instrument {
   take(message) {
     if (message.kind === "setup") this.furnish(message);
     else if (message.kind === "table") this.tabulate(message);
-    else if (this.confirm(message)) {
+    else if (this.nameAxes(message.labels) && this.confirm(message)) {
       this.decided = { inner: message.inner, outer: message.follows ? null : message.outer };
       for (const slider of this.sliders) slider.place(message[slider.name]);
       this.hatches();

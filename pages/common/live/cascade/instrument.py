@@ -29,7 +29,10 @@ def cascade_instrument(cascade: Cascade) -> None:
     setup = held.message("setup", name, lambda: cascade_table.setup(subject, grid))
     with st.container(gap=None):
         answers = components.show(components.cascade, KEY, setup, _take)
-        components.message(key=f"{KEY}_exact", data=cascade_table.exact(subject, grid, present, answers))
+        components.message(
+            key=f"{KEY}_exact",
+            data=cascade_table.exact(subject, grid, present, answers, axis_labels(state.design_now().sheet)),
+        )
         for loop in LOOPS:
             name = cascade_table.table_name(subject, grid, loop)
             table = held.message(loop, name, lambda loop=loop: cascade_table.table(subject, grid, loop, _pause))

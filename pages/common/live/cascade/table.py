@@ -15,10 +15,11 @@ import numpy as np
 from pages.common.live.cascade.rows import PARAMETERS, Grid, Section, course, sections
 from pages.common.live.kit.held import kept_end
 from pages.common.live.kit.instants import instants
-from pages.common.live.kit.judgement import judgement
+from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.session.design import Cascade
+from pages.common.session.sheet import Sheet
 from pages.common.studies.cascade import CascadeStudy, designed, scale
 from simc_core.cascade.design import CascadeDesign
 from simc_core.controllers.forms import Controller, ParallelPid
@@ -121,7 +122,7 @@ def setup(subject: Subject, grid: Grid) -> bytes:
     return pack(header, _parts("Ga", subject.rest.primary, omega) | _parts("Gb", subject.rest.secondary, omega))
 
 
-def exact(subject: Subject, grid: Grid, study: CascadeStudy, answers: int) -> bytes:
+def exact(subject: Subject, grid: Grid, study: CascadeStudy, answers: int, sheet: Sheet) -> bytes:
     """The present design without interpolation; answers: the release it answers.
 
     Without curves where it is not stable and too wild to be computed.
@@ -134,6 +135,7 @@ def exact(subject: Subject, grid: Grid, study: CascadeStudy, answers: int) -> by
         "outer": subject.outer,
         "follows": subject.follows,
         "answers": answers,
+        "labels": axis_labels(sheet),
         "sound": study.sound,
         "inner_stable": study.stability.inner.verdict == "stable",
         "settings": {loop: _shown(getattr(study.design, loop)) for loop in LOOPS},

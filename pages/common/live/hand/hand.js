@@ -25,7 +25,7 @@ export class Hand extends Instrument {
 
   take(message) {
     if (message.kind === "setup") this.furnish(message);
-    else if (this.confirm(message)) {
+    else if (this.nameAxes(message.labels) && this.confirm(message)) {
       for (const slider of this.used) slider.place(message.values[slider.name]);
       this.show();
     }

@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pages.common.live.kit.judgement import judgement
+from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.live.tuning.table import CURVES, SHOWN, Grid, cap, judged, responses
+from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, study_of_settings
 from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
 from simc_core.errors import InvalidParameter
@@ -121,7 +122,10 @@ def setup(subject: Subject, grid: Grid, present: Study, behind: Sequence[tuple[s
         "pins": [{"name": letter} for letter, _ in behind],
     }
     y, u, *_ = responses(present.loop, grid)
-    header["y_cap"], header["u_cap"] = cap(y, 2.0), cap(u, 3.0)
+    of_stable = present.stable
+    header["y_cap"], header["u_cap"] = (
+        cap(curve[: len(curve) * of_stable], room) for curve, room in ((y, 2.0), (u, 3.0))
+    )
     blocks = {}
     if behind:
         rows = zip(*[responses(each.loop, grid) for _, each in behind], strict=True)
@@ -136,7 +140,7 @@ def _controller(controller: Controller) -> dict:
     return {"form": form, "settings": settings, **dict(zip(("tau_F", "b", "c"), weights, strict=True))}
 
 
-def exact(subject: Subject, grid: Grid, values: dict[str, float], name: str, answers: int) -> bytes:
+def exact(subject: Subject, grid: Grid, values: dict[str, float], name: str, answers: int, sheet: Sheet) -> bytes:
     """The picture at these values without the engine of the browser. name: of the setup; answers: the release."""
     loop = subject.at(values)
     each = study_of_settings(loop.plant, loop.controller)
@@ -146,6 +150,7 @@ def exact(subject: Subject, grid: Grid, values: dict[str, float], name: str, ans
         "setup": name,
         "values": values,
         "answers": answers,
+        "labels": axis_labels(sheet),
         "stable": each.stable,
         "metrics": figures(judged(each, grid.omega)),
     }

@@ -22,6 +22,9 @@ const AXES = [
 ];
 export const EMPTY = { x: [], y: [] };
 
+/** What stands on the axes; an instrument puts the user's own units here before it makes panels. */
+export const LABELS = { t: "t  [time unit]", omega: "ω  [rad/time unit]", y: "y", u: "u" };
+
 /** Of the i-th design behind the present one; there are four shades. */
 export const shadeOf = (color, i) => `${color}-pin-${(i % 4) + 1}`;
 
@@ -52,7 +55,7 @@ export function extent(panel, [from, to], always) {
 /** spec: as of a Panel, without x; names: of its last curves. */
 export function timePanel({ names, ...spec }, end, scale) {
   return new Panel(
-    { ...spec, x: { label: "t  [time unit]", limits: () => [0, end] }, tell: tellNearest("t", names) },
+    { ...spec, x: { label: LABELS.t, limits: () => [0, end] }, tell: tellNearest("t", names) },
     scale,
   );
 }
@@ -115,7 +118,7 @@ export function magnitudePanel({ names, styles, ...spec }, omega, scale) {
     {
       ...spec,
       tell: tellNearest("ω", names),
-      x: { label: "ω  [rad/time unit]", log: true, limits: () => [omega[0], omega.at(-1)] },
+      x: { label: LABELS.omega, log: true, limits: () => [omega[0], omega.at(-1)] },
       y: { label: "", log: true, limits: (p) => [0.01, p.curves.some(({ y }) => y.some((v) => v > 3.2)) ? 100 : 4] },
       styles: [{ color: R, width: 1 }, ...styles],
     },

@@ -2,6 +2,7 @@
 // Python sends tables and, after each release, exact numbers; a subclass knows what they mean:
 //   furnished, take(message), panelSets(scale), reading(), figures(now), title(), words(now), release(slider), preset(n)
 
+import { LABELS } from "./curves.js";
 import { button } from "./format.js";
 import { savePng, saveSvg } from "./picture.js";
 import { Slider } from "./slider.js";
@@ -44,6 +45,14 @@ export class Instrument {
     if (this.playing || this.sliders.some((slider) => slider.dragging)) return false;
     this.waiting = 0;
     this.exact = exact;
+    return true;
+  }
+
+  /** The user's units on the axes; panels are made anew where they are others. */
+  nameAxes(labels) {
+    const changed = Object.entries(labels).some(([axis, words]) => LABELS[axis] !== words);
+    Object.assign(LABELS, labels);
+    if (changed) this.rebuild();
     return true;
   }
 

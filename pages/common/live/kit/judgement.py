@@ -1,6 +1,8 @@
 """What the strip of an instrument says of its figures: labels, meanings, bands of Ms. Pure: no streamlit."""
 
 from pages.common.parts.quantities import QUANTITIES
+from pages.common.parts.units import named
+from pages.common.session.sheet import Sheet
 from simc_core.studies.bands import BANDS, CIRCLES, SOLVED
 
 PEAKS = ("Ms", "Ms_outer", "Ms_inner")
@@ -20,3 +22,9 @@ def judgement(names: tuple[str, ...]) -> dict:
     ]
     bands = [[min(band.upto, 1e300), band.tone, band.words] for band in BANDS]
     return {"cells": cells, "bands": bands, "solved": SOLVED, "circles": CIRCLES}
+
+
+def axis_labels(sheet: Sheet) -> dict[str, str]:
+    """What stands on the axes of an instrument, in the user's units."""
+    y, u = (f"{name}  [{unit}]" if unit else name for name, unit in (("y", sheet.PV_unit), ("u", sheet.OP_unit)))
+    return {"t": named("t  [time unit]", sheet), "omega": named("ω  [rad/time unit]", sheet), "y": y, "u": u}

@@ -27,7 +27,10 @@ def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     name = table.table_name(subject, grid, pins)
     message = held.message("tuning", name, lambda: table.table(subject, grid, pins, name))
     answers = components.show(components.tuning, KEY, message, _take)
-    components.message(key=f"{KEY}_exact", data=table.exact(subject, grid, present, name, answers))
+    components.message(
+        key=f"{KEY}_exact",
+        data=table.exact(subject, grid, present, name, answers, axis_labels(state.design_now().sheet)),
+    )
     if refusal := state.memory("live_refusal", str):
         st.warning(refusal)
 

@@ -3,6 +3,7 @@
 import {
   D,
   extent,
+  LABELS,
   magnitudePanel,
   nyquistCurves,
   nyquistPanel,
@@ -36,7 +37,7 @@ export function responsePanels(table, scale) {
         { text: `load d at ${text(table.load, 3)}`, color: D, dash: true },
         ...pins.map(({ name }, i) => ({ text: name, color: shadeOf(Y, i), dash: true })),
       ],
-      y: { label: "y", limits: (p) => within(extent(p, window, [0, 1.05]), table.y_cap) },
+      y: { label: LABELS.y, limits: (p) => within(extent(p, window, [0, 1.05]), table.y_cap) },
       styles: [
         { color: R, dash: [5, 4], width: 1.5 },
         { color: D, dash: [2, 3], width: 1.2 },
@@ -54,7 +55,7 @@ export function responsePanels(table, scale) {
       short: "u",
       names: ["u"],
       legend: [{ text: "u", color: U }],
-      y: { label: "u", limits: (p) => within(extent(p, window, [0, 0]), table.u_cap) },
+      y: { label: LABELS.u, limits: (p) => within(extent(p, window, [0, 0]), table.u_cap) },
       styles: [...pinned(U, pins), { color: U, width: 2.2 }],
     },
     end,

@@ -8,10 +8,11 @@ import numpy as np
 
 from pages.common.live.kit.held import kept_end
 from pages.common.live.kit.instants import instants
-from pages.common.live.kit.judgement import judgement
+from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.session.design import Tuning
+from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from simc_core.algebra.factors import Factored
 from simc_core.certificate.verdict import stability
@@ -194,7 +195,7 @@ def metrics(subject: Subject, found: Sweep) -> np.ndarray:
     return np.array([values[name] for name in FIGURES]).T
 
 
-def exact(subject: Subject, grid: Grid, present: Study, name: str, answers: int) -> bytes:
+def exact(subject: Subject, grid: Grid, present: Study, name: str, answers: int, sheet: Sheet) -> bytes:
     """The present design without interpolation. name: of the table it belongs to; answers: the release it answers."""
     header = {
         "kind": "exact",
@@ -202,6 +203,7 @@ def exact(subject: Subject, grid: Grid, present: Study, name: str, answers: int)
         "table": name,
         "tau_c": present.tau_c,
         "answers": answers,
+        "labels": axis_labels(sheet),
         "stable": present.stable,
         "settings": present.controller.in_form(subject.form).settings,
         "metrics": figures(judged(present, grid.omega)),

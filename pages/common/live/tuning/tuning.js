@@ -29,7 +29,7 @@ export class Tuning extends Instrument {
 
   take(message) {
     if (message.kind === "table") this.tabulate(message);
-    else if (this.confirm(message)) {
+    else if (this.nameAxes(message.labels) && this.confirm(message)) {
       this.slider.place(message.tau_c);
       this.show();
     }

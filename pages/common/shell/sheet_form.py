@@ -1,0 +1,49 @@
+"""The loop sheet in the sidebar: tag, note, units, ranges. All of it may stay empty."""
+
+import streamlit as st
+
+from pages.common.parts.number_field import design_number
+from pages.common.session import state
+from pages.common.session.design import in_time_unit
+from pages.common.session.sheet import LONGEST, TIME_UNITS
+
+SIGNALS = (("PV", "Measurement PV"), ("OP", "Output OP"))
+
+
+def sheet_form() -> None:
+    """Fields of the sheet; another time unit converts the design and says so."""
+    with st.expander("Loop sheet"):
+        _text("tag", "Tag")
+        state.set_widget("sheet_unit", state.value("unit"))
+        st.selectbox(
+            "Time unit",
+            ["", *TIME_UNITS],
+            format_func=lambda unit: unit or "not named",
+            key="sheet_unit",
+            on_change=_take_unit,
+            help="Naming it the first time changes no number; another unit later converts all times.",
+        )
+        if said := state.memory("unit_said", str):
+            st.caption(said)
+        for signal, words in SIGNALS:
+            name, unit = st.columns(2, gap="small")
+            with name:
+                _text(signal, words)
+            with unit:
+                _text(f"{signal}_unit", f"Unit of {signal}")
+            for place, end in zip(st.columns(3, gap="small"), ("low", "high", "now"), strict=True):
+                design_number(f"{signal}_{end}", f"{signal} {end}", optional=True, place=place)
+        _text("note", "Note")
+
+
+def _text(name: str, label: str) -> None:
+    st.text_input(label, max_chars=LONGEST[name], **state.bound(name))
+
+
+def _take_unit() -> None:
+    old, new = state.value("unit"), state.widget("sheet_unit")
+    state.replace_design(in_time_unit(state.design_now(), new))
+    if old and new and old != new:
+        state.remember("unit_said", f"All times were converted from {old} to {new}: the loop is the same.")
+    else:
+        state.remember("unit_said", "")
