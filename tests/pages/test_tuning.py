@@ -171,10 +171,24 @@ def test_the_set_point_weight_changes_the_response_and_not_the_margins():
         ("1/(s^2+1)", "ζ must be > 0"),
     ],
 )
-def test_what_the_rules_do_not_cover_is_said_in_words(plant, words):
+def test_what_the_rules_do_not_cover_is_said_and_the_page_stays(plant, words):
+    """The switches stay, and the plant's own Bode and Nyquist curves; no numbers of a loop that does not exist."""
     app = tuned(plant=plant)
     assert words in texts(app)
-    assert not app.get("plotly_chart")
+    assert app.segmented_control(key="widget_order").value == "PI"
+    assert app.segmented_control(key="widget_rules").value == "2003"
+    assert len(specs(app)) == 2
+    assert not [item for item in app.get("html") if '<div class="strip' in item.proto.body]
+
+
+def test_a_refusal_is_cured_on_the_page_where_it_is_told():
+    """An unstable pole and a lag too long for PI; PID has settings [SK98 eq. 23]."""
+    app = tuned(plant="exp(-0.01s)/(0.1s^2-1)")
+    assert app.error
+    app.segmented_control(key="widget_order").set_value("PID").run()
+    assert not app.error
+    assert copied(app)["Kc"] == pytest.approx(50 / math.sqrt(10))  # 1/(2 k' theta), k' = sqrt(10)
+    assert len(specs(app)) == PANELS
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import numpy as np
 
 from pages.common.session.design import Design, Tuning
 from simc_core.controllers.forms import Controller
-from simc_core.errors import NotStable
+from simc_core.errors import NotStable, SimcError
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
 from simc_core.metrics.performance import Performance, StepMetrics, performance
@@ -65,6 +65,14 @@ def study(plant: Plant, tuning: Tuning) -> Study:
     """Reduce, tune, close the loop, judge it. Raises SimcError, in words, where one of these is impossible."""
     found = tuned(plant, **asdict(tuning))
     return Study(tuning, found, found.loop, found.margins, _measured(found.loop) if found.margins.stable else None)
+
+
+def attempt(plant: Plant, tuning: Tuning) -> tuple[Study | None, SimcError | None]:
+    """The study, or why there is none: the page keeps its controls either way."""
+    try:
+        return study(plant, tuning), None
+    except SimcError as error:
+        return None, error
 
 
 def present_study(design: Design) -> Study:

@@ -8,9 +8,11 @@ import streamlit as st
 from pages.common.live import components
 from pages.common.live.kit.shared_tables import TABLES
 from pages.common.live.tuning import table
+from pages.common.parts.foreign_text import told
 from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.errors import InvalidParameter
+from simc_core.numbers import read_number
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
 from simc_core.studies.tau_table import smallest
@@ -57,13 +59,14 @@ def _take(release: Mapping) -> None:
     state.remember("live_answers", int(release["n"]))
     state.remember("live_refusal", "")
     try:
-        state.change(tau_c=release["tau_c"] if "tau_c" in release else _for_Ms(float(release["Ms"])))
+        state.change(tau_c=release["tau_c"] if "tau_c" in release else _for_Ms(release["Ms"]))
     except InvalidParameter as error:
-        state.remember("live_refusal", str(error))
+        state.remember("live_refusal", told(str(error)))
 
 
-def _for_Ms(limit: float) -> float:
-    """The smallest tau_c on the slider with Ms <= limit. Raises InvalidParameter where there is none."""
+def _for_Ms(typed: str) -> float:
+    """The smallest tau_c on the slider with Ms <= the number typed. Raises InvalidParameter where there is none."""
+    limit = read_number("Ms", typed)
     of = state.memory("live_table", lambda: None).of
     low, high, *_ = table.bounds(of.model)
     return smallest(lambda tau_c: margins(of.loop(tau_c)).Ms, limit, low, high)
