@@ -4,56 +4,47 @@ import streamlit as st
 
 from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
+from pages.common.session.design import Design
 from pages.common.shell import header
-from pages.common.studies.single import attempt, present_study, study
+from pages.common.studies.single import Study, attempt, present_study, study
 from pages.common.tuning import guards
 from pages.common.tuning.actuator_view import actuator_view, mark
 from pages.common.tuning.drag import drag
 from pages.common.tuning.model_error_view import model_error_view
-from pages.common.tuning.open_plant import open_plant
 from pages.common.tuning.panels import open_loop, panels
 from pages.common.tuning.pinned import design_table, pin_button, pinned_studies
 from pages.common.tuning.readout import readout
-from pages.common.tuning.source import NOW, change_in_words, in_the_plant_now, my_settings, show_source, source_control
+from pages.common.tuning.refused import choices, refused
+from pages.common.tuning.source import NOW, change_in_words, in_the_plant_now, my_settings, source_control
 from pages.common.tuning.widgets import settings, structure, tau_c_control
 
 VIEWS = ("Live", "Figures", "Bode of L", "Model error", "As built", "Compare")
 
-design = header.show("tuning")
-made, refusal = attempt(lambda: study(design.plant, design.tuning))
-own = design.source == "own"
-present, refusal = attempt(lambda: present_study(design)) if own else (made, refusal)
-mark(design.actuator, "narrow")
-with st.container(key="tuning"):
-    controls, view = st.columns([4, 11], gap="medium")
-with controls:
-    mark(design.actuator, "wide")
-    show_source()
-    source_control(design.plant, made)
-    if own:
+
+def decide(design: Design, made: Study | None, present: Study | None) -> Study | None:
+    """What is to be decided, and what it comes to. Returns the settings in the plant now, if they were told."""
+    source_control(made)
+    if design.source == "own":
         my_settings(made)
-    elif present:
+    elif present is None:
+        choices()
+    else:
         tau_c_control(present, slider=state.widget("views", VIEWS[0]) != VIEWS[0])
-    if not own:
         structure()
     if present:
         settings(present)
         pin_button(present)
         guards.show(present)
-    baseline = in_the_plant_now(design.plant, present)
-with view:
-    if present is None:
-        with explain_refusal():
-            raise refusal
-        open_plant(design.plant)
-        st.stop()
+    return in_the_plant_now(design.plant, present)
+
+
+def look(design: Design, present: Study, baseline: Study | None) -> None:
+    """The views; only the open one is made."""
     if baseline:
         st.markdown(f"**Against the settings now:** {change_in_words(baseline, present)}")
     behind = [*([(NOW, baseline)] if baseline else []), *pinned_studies(design.plant, design.pins)]
     studies = [("present", present), *behind]
-    instrument, figures, bode, error, built, table = st.tabs(
-        VIEWS, key="views", on_change="rerun"
-    )  # the open one is made
+    instrument, figures, bode, error, built, table = st.tabs(VIEWS, key="views", on_change="rerun")
     if instrument.open:
         with instrument:
             drag(design.plant, present, behind)
@@ -74,3 +65,24 @@ with view:
         with table:
             design_table(studies)
             guards.poles(present)
+
+
+design = header.show("tuning")
+made, refusal = attempt(lambda: study(design.plant, design.tuning))
+present = made
+if design.source == "own":
+    present, refusal = attempt(lambda: present_study(design))
+mark(design.actuator, "narrow")
+with st.container(key="tuning"):
+    controls, view = st.columns([4, 11], gap="medium")
+baseline = None
+with controls:
+    mark(design.actuator, "wide")
+    with explain_refusal():
+        baseline = decide(design, made, present)
+with view:
+    if present is None:
+        refused(design.plant, refusal)
+    else:
+        with explain_refusal():
+            look(design, present, baseline)

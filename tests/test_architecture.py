@@ -48,5 +48,16 @@ def test_no_imports_inside_functions_and_no_star(path):
     assert not [n for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) and n.names[0].name == "*"]
 
 
+@pytest.mark.parametrize("path", PAGES, ids=name)
+def test_numbers_are_typed_in_one_kind_of_field(path):
+    """Streamlit's own number fields drop a decimal comma: parts/number_field.py is for all."""
+    attributes = {node.attr for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Attribute)}
+    assert not {"number_input", "NumberColumn"} & attributes
+
+
+def test_no_number_field_of_the_browser_either():
+    assert not [path for path in (ROOT / "pages").rglob("*.js") if 'type="number"' in path.read_text()]
+
+
 def test_the_entry_point_only_starts_the_router():
     assert len((ROOT / "app.py").read_text().splitlines()) <= 25

@@ -48,21 +48,22 @@ def test_coefficients_that_are_none(text, why):
 
 
 def row(factor, tau=None, zeta=None):
+    """A row of the table, where numbers are text."""
     return {"factor": factor, "tau": tau, "zeta": zeta}
 
 
 @pytest.mark.parametrize(
     ("rows", "why"),
     [
-        ([row(entries.LAG, 1.0), row(entries.LAG, 0.0)], "row 2: τ must not be zero, got 0"),
+        ([row(entries.LAG, "1.0"), row(entries.LAG, "0.0")], "row 2: τ must not be zero, got 0"),
         ([row(entries.LAG)], "row 1: τ must be a number, got nothing"),
-        ([row(None, 2.0)], "row 1: choose what kind"),
-        ([row(entries.LAG_PAIR, 2.0)], "row 1: ζ must be a number, got nothing"),
-        ([row(entries.LAG_PAIR, -2.0, 0.5)], "row 1: τ must be > 0, got -2"),
-        ([row(entries.LEAD, 2.0)], "degree of the numerator"),
+        ([row(None, "2.0")], "row 1: choose what kind"),
+        ([row(entries.LAG_PAIR, "2.0")], "row 1: ζ must be a number, got nothing"),
+        ([row(entries.LAG_PAIR, "-2.0", "0.5")], "row 1: τ must be > 0, got -2"),
+        ([row(entries.LEAD, "2.0")], "degree of the numerator"),
         ([row(entries.INTEGRATOR)] * 5, "integrators must be <= 4, got 5"),
-        ([row(entries.LAG, 1e300)], "row 1: "),
-        ([row(entries.LAG, 1.0)] * 200, "at most 40"),
+        ([row(entries.LAG, "1e300")], "row 1: "),
+        ([row(entries.LAG, "1.0")] * 200, "at most 40"),
     ],
 )
 def test_a_table_that_is_no_plant_names_the_row(rows, why):
@@ -71,10 +72,10 @@ def test_a_table_that_is_no_plant_names_the_row(rows, why):
 
 
 def test_rows_not_yet_begun_do_not_count():
-    assert entries.plant_of_rows(2.0, 1.0, [row(None), row(entries.LAG, 3.0)]) == Plant(2.0, 1.0, (3.0,))
+    assert entries.plant_of_rows(2.0, 1.0, [row(None), row(entries.LAG, "3.0")]) == Plant(2.0, 1.0, (3.0,))
 
 
 def test_edits_of_the_table_are_applied_in_order():
-    rows = [row(entries.LAG, 1.0), row(entries.LAG, 2.0)]
-    edits = {"edited_rows": {1: {"tau": 5.0}}, "added_rows": [{"factor": entries.INTEGRATOR}], "deleted_rows": [0]}
-    assert entries.edited(rows, edits) == [row(entries.LAG, 5.0), row(entries.INTEGRATOR)]
+    rows = [row(entries.LAG, "1.0"), row(entries.LAG, "2.0")]
+    edits = {"edited_rows": {1: {"tau": "5,0"}}, "added_rows": [{"factor": entries.INTEGRATOR}], "deleted_rows": [0]}
+    assert entries.edited(rows, edits) == [row(entries.LAG, "5,0"), row(entries.INTEGRATOR)]

@@ -86,13 +86,13 @@ def test_ways_of_entry_describe_one_plant():
     app.text_input("plant_polynomials_num").set_value("4").run()
     assert not app.error
     assert address(app)["plant"].startswith("4 exp(-0.5 s)")
-    app.number_input("plant_polynomials_theta").set_value(-1.0).run()
-    assert "theta must be >= 0, got -1" in app.error[0].value
+    app.text_input(key="plant_polynomials_theta").set_value("-1").run()
+    assert "Dead time θ must be ≥ 0, got −1" in app.error[0].value
     assert address(app)["plant"].startswith("4 exp(-0.5 s)")
     app.segmented_control("plant_way").set_value("Factors").run()
-    app.number_input("plant_factors_k").set_value(0.0).run()
-    assert "k must not be zero" in app.error[0].value
-    app.number_input("plant_factors_k").set_value(5.0).run()
+    app.text_input(key="plant_factors_k").set_value("0").run()
+    assert "Gain k must not be zero" in app.error[0].value
+    app.text_input(key="plant_factors_k").set_value("5").run()
     assert not app.error
     assert address(app)["plant"].startswith("5 exp(-0.5 s)")
 

@@ -6,6 +6,7 @@ import streamlit as st
 
 from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
+from pages.common.parts.rules_choice import rules_choice
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
 from pages.common.studies.single import Study
@@ -16,7 +17,6 @@ from simc_core.reduction.records import Reduction
 
 HEIGHT, TALL = 260, 400  # px
 ORDERS = {1: "1 (PI)", 2: "2 (PID)"}
-RULES = {"2003": "2003: T1–T3", "1998": "1998"}
 VERDICTS = {
     "good": (st.success, "**Good enough.** The error uses at most half of what this loop can bear"),
     "usable": (
@@ -42,14 +42,7 @@ def choices() -> None:
         under=st.container(),
         help="Sampling period of a digital controller; half of it counts as dead time. 0: continuous.",
     )
-    rules.segmented_control(
-        "Rules for zeros",
-        list(RULES),
-        format_func=RULES.get,
-        help="2003: rules T1 to T3 [SK03 sect. 2.2]. 1998: the simpler, older form [SK98]: small zeros are "
-        "subtracted from the delay, a large one is cancelled.",
-        **state.bound("rules"),
-    )
+    rules_choice(rules)
 
 
 def story(reduction: Reduction) -> None:

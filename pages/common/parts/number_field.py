@@ -16,10 +16,9 @@ from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
 from pages.common.session.design import PLACES
+from pages.common.session.links import number_text
 from simc_core.errors import SimcError
 from simc_core.numbers import read_number
-
-DIGITS = 6  # shown where they are all there are
 
 
 @dataclass(slots=True)
@@ -64,14 +63,14 @@ def number_field(
     **options
         Of st.text_input: help, placeholder, width, label_visibility.
     """
-    typed = state.memory(f"number_{key}", lambda: _Typed(shown(value), value))
+    typed = state.memory(f"number_{key}", lambda: _Typed(number_text(value), value))
     if typed.value != value or (typed.why and not _refusal(label, typed.text, check, optional)):
-        typed.text, typed.value, typed.why = shown(value), value, ""
+        typed.text, typed.value, typed.why = number_text(value), value, ""
     state.set_widget(key, typed.text)
     place = place or st.container(width=options.get("width", "stretch"))
     place.text_input(label, key=key, on_change=_read, args=(label, typed, check, take, key, optional), **options)
     if typed.why:
-        in_use = f"{shown(value)} stays in use." if shown(value) else "It stays empty."
+        in_use = f"{number_text(value)} stays in use." if number_text(value) else "It stays empty."
         (under or place).error(f"{typed.why}. {in_use}")
 
 
@@ -96,14 +95,6 @@ def design_number(name: str, label: str, *, show: Callable = lambda value: value
         key or f"widget_{name}",
         **options,
     )
-
-
-def shown(value: float | None) -> str:
-    """The shortest text that reads back as the very number: 0.1, 12345.678, 1e-7; empty for None."""
-    if value is None:
-        return ""
-    text = f"{value:.{DIGITS}g}"
-    return text if float(text) == value else repr(value).removesuffix(".0")
 
 
 def _read(label: str, typed: _Typed, check: Callable, take: Callable, key: str, optional: bool) -> None:

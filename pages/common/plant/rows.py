@@ -5,9 +5,10 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from simc_core import Plant
+from pages.common.session.links import number_text
+from simc_core import Plant, checks
 from simc_core.errors import InvalidParameter
-from simc_core.numbers import read_numbers
+from simc_core.numbers import read_number, read_numbers
 
 LAG = "lag 1/(τs + 1)"
 LEAD = "zero (τs + 1)"
@@ -18,36 +19,37 @@ FACTORS = (LAG, LEAD, INTEGRATOR, LAG_PAIR, LEAD_PAIR)
 
 
 def rows_of(plant: Plant) -> list[dict]:
-    """The plant as table rows with the columns factor, tau, zeta; gain and dead time stand apart."""
+    """The plant as table rows with the columns factor, tau, zeta, numbers as text; gain and dead time stand apart."""
     rows = [_row(INTEGRATOR)] * plant.integrators
-    rows += [_row(LAG, tau) for tau in plant.lags]
-    rows += [_row(LEAD, tau) for tau in plant.leads]
-    rows += [_row(LAG_PAIR, *pair) for pair in plant.lag_pairs]
-    rows += [_row(LEAD_PAIR, *pair) for pair in plant.lead_pairs]
+    rows += [_row(LAG, number_text(tau)) for tau in plant.lags]
+    rows += [_row(LEAD, number_text(tau)) for tau in plant.leads]
+    rows += [_row(LAG_PAIR, *map(number_text, pair)) for pair in plant.lag_pairs]
+    rows += [_row(LEAD_PAIR, *map(number_text, pair)) for pair in plant.lead_pairs]
     return rows
 
 
-def plant_of_rows(k: float | None, theta: float | None, rows: Iterable[Mapping]) -> Plant:
+def plant_of_rows(k: float, theta: float, rows: Iterable[Mapping]) -> Plant:
     """The plant of a table. Raises InvalidParameter, which names the row, the bound and what came in.
 
     Rows without a factor and without numbers are still empty and do not count.
     """
     lags, leads, lag_pairs, lead_pairs, integrators = [], [], [], [], 0
     for number, row in enumerate(rows, start=1):
-        factor, tau, zeta = row["factor"], row["tau"], row["zeta"]
-        if factor is None and tau is None and zeta is None:
+        factor = row["factor"]
+        if factor is None and not row["tau"] and not row["zeta"]:
             continue
         if factor is None:
             raise InvalidParameter(f"row {number}: choose what kind of factor this is, got none")
         if factor == INTEGRATOR:
             integrators += 1
         elif factor in (LAG, LEAD):
-            (lags if factor == LAG else leads).append(_number(f"row {number}: τ", tau))
+            tau = checks.time_constant(f"row {number}: τ", _number(number, "τ", row["tau"]))
+            (lags if factor == LAG else leads).append(tau)
         else:
-            pair = (_number(f"row {number}: τ", tau), _number(f"row {number}: ζ", zeta))
+            pair = (_number(number, "τ", row["tau"]), _number(number, "ζ", row["zeta"]))
+            _try_pair(number, pair)
             (lag_pairs if factor == LAG_PAIR else lead_pairs).append(pair)
-        _try_factor(number, factor, tau, zeta)
-    return Plant(_number("k", k), _number("theta", theta), lags, leads, integrators, lag_pairs, lead_pairs)
+    return Plant(k, theta, lags, leads, integrators, lag_pairs, lead_pairs)
 
 
 def edited(rows: Sequence[Mapping], edits: Mapping) -> list[Mapping]:
@@ -65,11 +67,9 @@ def polynomials_of(plant: Plant) -> tuple[str, str]:
     return coefficients_text(num), coefficients_text(den)
 
 
-def plant_of_polynomials(num: str, den: str, theta: float | None) -> Plant:
+def plant_of_polynomials(num: str, den: str, theta: float) -> Plant:
     """The plant of two texts of coefficients. Raises InvalidParameter."""
-    return Plant.from_polynomials(
-        read_numbers("numerator", num), read_numbers("denominator", den), _number("theta", theta)
-    )
+    return Plant.from_polynomials(read_numbers("numerator", num), read_numbers("denominator", den), theta)
 
 
 def coefficients_text(values: Sequence[float]) -> str:
@@ -79,27 +79,21 @@ def coefficients_text(values: Sequence[float]) -> str:
     return ("; " if any(re.match(r"\d{3}", word) for word in words[1:]) else " ").join(words)
 
 
-def _row(factor: str | None, tau: float | None = None, zeta: float | None = None) -> dict:
+def _row(factor: str | None, tau: str | None = None, zeta: str | None = None) -> dict:
     return {"factor": factor, "tau": tau, "zeta": zeta}
 
 
-def _number(name: str, value: float | None) -> float:
-    if value is None:
-        raise InvalidParameter(f"{name} must be a number, got nothing")
-    return value
+def _number(row: int, symbol: str, text: str | None) -> float:
+    return read_number(f"row {row}: {symbol}", text or "")
 
 
-def _try_factor(number: int, factor: str, tau: float | None, zeta: float | None) -> None:
-    """Let the core judge this factor alone, so that its message can name the row."""
-    pair = factor in (LAG_PAIR, LEAD_PAIR)
+def _try_pair(row: int, pair: tuple[float, float]) -> None:
+    """Let the core judge this pair alone, so that its message can name the row."""
     try:
-        if pair:
-            Plant(1.0, lag_pairs=[(tau, zeta)])
-        elif factor != INTEGRATOR:
-            Plant(1.0, lags=[tau])
+        Plant(1.0, lag_pairs=[pair])
     except InvalidParameter as error:
-        message = str(error).replace("lag_pairs[0] tau", "τ").replace("lag_pairs[0] zeta", "ζ").replace("lags[0]", "τ")
-        raise InvalidParameter(f"row {number}: {message}") from None
+        message = str(error).replace("lag_pairs[0] tau", "τ").replace("lag_pairs[0] zeta", "ζ")
+        raise InvalidParameter(f"row {row}: {message}") from None
 
 
 def _product(rows: np.ndarray) -> np.ndarray:

@@ -20,8 +20,9 @@ FIRST = IdealPid(1.0, 10.0)  # where there is nothing to take over
 NOW = "now"  # its name in figures, tables and legends
 
 
-def source_control(plant: Plant, made: Study | None) -> None:
+def source_control(made: Study | None) -> None:
     """SIMC or my settings. made: what SIMC gives, to be taken over; None where its rules end."""
+    state.set_widget("controller_source", state.value("controller"))
     st.segmented_control(
         "Controller from",
         list(SOURCES),
@@ -31,11 +32,6 @@ def source_control(plant: Plant, made: Study | None) -> None:
         on_change=_choose,
         args=(made.controller if made else FIRST,),
     )
-
-
-def show_source() -> None:
-    """Put the choice of the design into the widget, before it is made."""
-    state.set_widget("controller_source", state.value("controller"))
 
 
 def _choose(offered: Controller) -> None:

@@ -31,7 +31,7 @@ def cascade_instrument(cascade: Cascade) -> None:
         answers = components.show(components.cascade, KEY, setup, _take)
         components.message(
             key=f"{KEY}_exact",
-            data=cascade_table.exact(subject, grid, present, answers, axis_labels(state.design_now().sheet)),
+            data=cascade_table.exact(subject, grid, present, answers, state.design_now().sheet),
         )
         for loop in LOOPS:
             name = cascade_table.table_name(subject, grid, loop)

@@ -45,7 +45,7 @@ def hand_instrument(present: Study, behind: list[tuple[str, Study]], settings: b
     answers = components.show(components.hand, key, message, lambda release: _take(release, settings))
     components.message(
         key=f"{key}_exact",
-        data=table.exact(subject, grid, held.values, name, answers, axis_labels(state.design_now().sheet)),
+        data=table.exact(subject, grid, held.values, name, answers, state.design_now().sheet),
     )
     loop = subject.at(held.values)
     return study_of_settings(loop.plant, loop.controller)
