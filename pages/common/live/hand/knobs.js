@@ -2,7 +2,10 @@
 
 /** setup: {plant, controller: {form, settings, tau_F, b, c}}; values: of the knobs, sizes without sign. */
 export function turned({ plant, controller }, values) {
-  return { plant: turnedPlant(plant, values), controller: parallel({ ...controller, settings: settingsAt(controller, values) }) };
+  return {
+    plant: turnedPlant(plant, values),
+    controller: parallel({ ...controller, settings: settingsAt(controller, values) }),
+  };
 }
 
 function settingsAt({ settings }, values) {

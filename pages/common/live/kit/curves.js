@@ -54,10 +54,7 @@ export function extent(panel, [from, to], always) {
 
 /** spec: as of a Panel, without x; names: of its last curves. */
 export function timePanel({ names, ...spec }, end, scale) {
-  return new Panel(
-    { ...spec, x: { label: LABELS.t, limits: () => [0, end] }, tell: tellNearest("t", names) },
-    scale,
-  );
+  return new Panel({ ...spec, x: { label: LABELS.t, limits: () => [0, end] }, tell: tellNearest("t", names) }, scale);
 }
 
 /** loops [{name, color, dash, ring}]: L of each, and the colour of the circle that it touches; behind: more styles. */
