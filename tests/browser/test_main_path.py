@@ -50,11 +50,11 @@ def test_from_a_typed_plant_to_a_link_that_opens_the_same_design(server, fresh_s
     page.get_by_role("slider").first.press("ArrowRight")
     page.wait_for_url(lambda url: url != before)
     idle(page)
-    tau_c = re.search("tau_c=([^&]+)", page.url).group(1)
+    speed = re.search("speed=([^&]+)", page.url).group(1)
     expect(page.get_by_test_id("stMain")).to_contain_text("Ms")
     link = page.locator(".st-key-address_text pre").inner_text()
     again = open_page(re.sub(r"^http://[^/]+", fresh_server(), link))
-    assert f"tau_c={tau_c}" in again.url
+    assert f"speed={speed}" in again.url
     assert (
         again.locator(".st-key-line .katex").first.inner_text()
         == page.locator(".st-key-line .katex").first.inner_text()

@@ -4,6 +4,7 @@ import math
 
 import streamlit as st
 
+from pages.common import live
 from pages.common.parts.copyable import copyable
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
@@ -67,17 +68,12 @@ def _slider(model: Model, tau_c: float) -> None:
         r"and gentle on the input [SK03 sect. 3.3]. $\tau_c = \theta$ is tight.",
         key="tau_c_slider",
         on_change=_slid,
-        args=(scale, bool(unit)),
+        args=(model, scale),
     )
 
 
-def _slid(scale: float, of_theta: bool) -> None:
-    """A multiple of theta stays one when the plant changes."""
-    ratio = state.widget("tau_c_slider")
-    if of_theta:
-        state.change(tau_c=None, speed=f"{ratio:.6g}theta")
-    else:
-        state.change(tau_c=ratio * scale)
+def _slid(model: Model, scale: float) -> None:
+    state.change(**live.as_choice(model, state.widget("tau_c_slider") * scale))
 
 
 def structure() -> None:

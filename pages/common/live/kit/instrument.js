@@ -163,12 +163,13 @@ export class Instrument {
     });
   }
 
-  /** What happens if: tau_c up and down, from a third to three times where it is. */
+  /** tau_c up and down, from a third to three times where it is; then it goes back, and nothing has changed. */
   play() {
     const slider = this.slider;
     if (slider.fixed) return;
-    const middle = slider.tau_c,
-      begin = performance.now();
+    const middle = slider.tau_c;
+    const begin = performance.now();
+    this.putBack = () => slider.place(middle);
     this.root.querySelector(".play").setAttribute("aria-pressed", "true");
     const step = (now) => {
       const swing = 3 ** Math.sin((2 * Math.PI * (now - begin)) / PERIOD);
@@ -179,12 +180,15 @@ export class Instrument {
     this.playing = requestAnimationFrame(step);
   }
 
-  stop(release = false) {
+  /** The sweep ends; back: where it began. A hand on the slider takes it from where it is. */
+  stop(back = false) {
     if (!this.playing) return;
     cancelAnimationFrame(this.playing);
     this.playing = 0;
     this.root.querySelector(".play").setAttribute("aria-pressed", "false");
-    if (release) this.release(this.slider);
+    if (!back) return;
+    this.putBack();
+    this.show();
   }
 
   lecture() {

@@ -1,5 +1,6 @@
 """The instrument of the tuning page: one slider, tau_c."""
 
+import math
 from collections.abc import Mapping
 
 import streamlit as st
@@ -12,11 +13,14 @@ from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.errors import InvalidParameter
 from simc_core.numbers import read_number
+from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
+from simc_core.rules.speed import times_theta
 from simc_core.sensitivity.margins import margins
 from simc_core.studies.tau_table import smallest
 
 KEY = "live"
+SAME = 1e-12  # relative; one tau_c as a number and as a choice
 
 
 def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
@@ -33,22 +37,37 @@ def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
         key=f"{KEY}_exact",
         data=table.exact(subject, grid, present, name, answers, state.design_now().sheet),
     )
-    if refusal := state.memory("live_refusal", str):
-        st.warning(refusal)
+    refused, why = state.memory("live_refusal", lambda: (None, ""))
+    if refused == subject:  # a refusal goes with what it was said of
+        st.warning(why)
 
 
 def _take(release: Mapping) -> None:
     """tau_c, or the Ms that tau_c is wanted for."""
-    state.remember("live_refusal", "")
+    subject = state.memory(KEY, Held).subject
+    state.remember("live_refusal", (None, ""))
     try:
-        state.change(tau_c=release["tau_c"] if "tau_c" in release else _for_Ms(release["Ms"]))
+        tau_c = release["tau_c"] if "tau_c" in release else _for_Ms(subject, release["Ms"])
+        state.change(**as_choice(subject.model, tau_c))
     except InvalidParameter as error:
-        state.remember("live_refusal", told(str(error)))
+        state.remember("live_refusal", (subject, told(str(error))))
 
 
-def _for_Ms(typed: str) -> float:
+def as_choice(model: Model, tau_c: float) -> dict[str, float | str | None]:
+    """The change of the design for a tau_c on the slider: a multiple of theta stays one when the plant changes."""
+    if model.theta:
+        speed = f"{tau_c / model.theta:.6g}theta"
+        if math.isclose((times_theta(speed) or 0.0) * model.theta, tau_c, rel_tol=SAME):
+            return {"tau_c": None, "speed": speed}
+    return {"tau_c": tau_c}
+
+
+def _for_Ms(subject: table.Subject, typed: str) -> float:
     """The smallest tau_c on the slider with Ms <= the number typed. Raises InvalidParameter where there is none."""
     limit = read_number("Ms", typed)
-    subject = state.memory(KEY, Held).subject
+    if isinstance(subject.model, UnstableDelay):
+        raise InvalidParameter(
+            "tau_c cannot be sought for an Ms here: the rule of an unstable pole knows one tau_c"
+        )
     low, high, *_ = table.bounds(subject.model)
     return smallest(lambda tau_c: margins(subject.loop(tau_c)).Ms, limit, low, high)

@@ -99,7 +99,7 @@ def subject_of(plant: Plant, present: Study, form: str) -> Subject:
     """The subject of the study; a form that does not exist for this controller gives way to the parallel one."""
     if not present.controller.has_form(form):
         form = "parallel"
-    return Subject(plant, present.model, replace(present.tuning, tau_c=None), form)
+    return Subject(plant, present.model, replace(present.tuning, tau_c=None, speed=""), form)
 
 
 def grid_of(subject: Subject, present: Study, shown: float | None = None) -> Grid:
