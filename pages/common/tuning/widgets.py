@@ -27,8 +27,12 @@ SHORTEST, LONGEST = -1, 2  # decades of tau_c/theta on the slider
 STYLE = """<style>
 .st-key-presets, .st-key-multiples {display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem}
 .st-key-presets button, .st-key-multiples button {min-height: 2rem; padding: 0 0.5rem}
-@media (max-width: 640px) { /* what moves comes first, what is set once below it */
+.st-key-tuning {container-type: inline-size}
+@container (max-width: 740px) { /* what moves comes first, what is set once below it */
   .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
+  .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) > [data-testid="stColumn"] {
+    flex: 1 1 auto; width: 100%; min-width: 100%
+  }
 }
 </style>"""
 
