@@ -15,7 +15,7 @@ def read_back(plant: Plant) -> str:
 
     Parameters
     ----------
-    plant
+    plant : Plant
         Any plant.
 
     Returns

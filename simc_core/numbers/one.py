@@ -36,9 +36,9 @@ def read_number(name: str, text: str) -> float:
 
     Parameters
     ----------
-    name
+    name : str
         The field, as the message shall call it.
-    text
+    text : str
         What was typed: decimal point or comma, any minus sign, 1e-3, 2·10^-3, 11/5; separators of thousands where no
         other reading is left.
 

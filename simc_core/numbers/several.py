@@ -30,9 +30,9 @@ def read_numbers(name: str, text: str) -> list[float]:
 
     Parameters
     ----------
-    name
+    name : str
         The field, as the message shall call it.
-    text
+    text : str
         The list, as a person or a program writes it; see the module's docstring.
 
     Returns
