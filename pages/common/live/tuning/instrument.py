@@ -66,8 +66,6 @@ def _for_Ms(subject: table.Subject, typed: str) -> float:
     """The smallest tau_c on the slider with Ms <= the number typed. Raises InvalidParameter where there is none."""
     limit = read_number("Ms", typed)
     if isinstance(subject.model, UnstableDelay):
-        raise InvalidParameter(
-            "tau_c cannot be sought for an Ms here: the rule of an unstable pole knows one tau_c"
-        )
+        raise InvalidParameter("tau_c cannot be sought for an Ms here: the rule of an unstable pole knows one tau_c")
     low, high, *_ = table.bounds(subject.model)
     return smallest(lambda tau_c: margins(subject.loop(tau_c)).Ms, limit, low, high)
