@@ -8,7 +8,7 @@ from simc_core.figures.frequency import (
     open_loop_figure,
     sensitivity_figure,
 )
-from simc_core.figures.nyquist import nested_nyquist_figure, nyquist_figure
+from simc_core.figures.nyquist import nested_nyquist_figure, nyquist_figure, plant_nyquist_figure
 from simc_core.figures.palette import Figure, config
 from simc_core.figures.polezero import pole_zero_figure
 from simc_core.figures.time import (

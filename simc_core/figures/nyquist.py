@@ -11,7 +11,9 @@ import numpy as np
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
+from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import FrequencyResponse
+from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import Margins
 from simc_core.studies.bands import CIRCLES
 
@@ -28,8 +30,16 @@ def nyquist_figure(
     """L(j omega), 1:1, -1 marked. curves: present design first, then the pinned ones. margins: of the present one."""
     traces = [*_ms_circle(margins, ""), *_mt_circle(margins.Mt)] if margins.stable else []
     shades = [palette.shade(palette.Y, position) for position in range(len(curves))]
-    traces += reversed([_curve(*curve, shade) for curve, shade in zip(curves, shades, strict=True)])
+    traces += reversed(
+        [_curve(name, each.omega, each.L, shade) for (name, each), shade in zip(curves, shades, strict=True)]
+    )
     return _plane(traces, [margins], height)
+
+
+def plant_nyquist_figure(plant: Plant, height: int | None = None) -> Figure:
+    """G(j omega), 1:1: L with a proportional controller of gain 1, not judged."""
+    omega = omega_grid([plant.factored])
+    return _plane([_curve("G", omega, plant.response(1j * omega), palette.shade(palette.Y, 0))], [], height)
 
 
 def nested_nyquist_figure(
@@ -41,7 +51,7 @@ def nested_nyquist_figure(
     """
     traces = []
     for (name, color, dash), record, margins in zip(palette.LOOPS, (outer, inner), judged, strict=True):
-        traces.append(_curve(f"L{name}", record, (color, dash, 2.2)) | {"showlegend": True})
+        traces.append(_curve(f"L{name}", record.omega, record.L, (color, dash, 2.2)) | {"showlegend": True})
         if margins.stable:
             traces += [
                 circle | {"line": {"color": color, "dash": dash, "width": 1.2}, "showlegend": False}
@@ -90,13 +100,13 @@ def mt_circle(Mt: float) -> tuple[np.ndarray, np.ndarray]:
     return circle(-Mt * Mt / (Mt * Mt - 1), Mt / abs(Mt * Mt - 1), 721)
 
 
-def _curve(name: str, record: FrequencyResponse, style: tuple[str, str, float]) -> Trace:
+def _curve(name: str, omega: np.ndarray, L: np.ndarray, style: tuple[str, str, float]) -> Trace:
     return palette.line(
-        record.L.real,
-        record.L.imag,
+        L.real,
+        L.imag,
         name,
         *style,
-        customdata=record.omega,
+        customdata=omega,
         showlegend=False,  # the time responses name the designs
         hovertemplate="ω = %{customdata:.4g}<br>L = %{x:.4g} %{y:+.4g} j",
     )

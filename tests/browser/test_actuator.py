@@ -22,7 +22,7 @@ def test_limits_are_typed_drawn_linked_and_taken_away_again(server, open_page):
     expect(page.get_by_text("As built:")).to_have_count(0)
     page.get_by_role("tab", name="As built").click()
     idle(page)
-    highest = page.get_by_role("spinbutton", name="Highest u")
+    highest = page.get_by_role("textbox", name="Highest u")
     highest.fill("1.1")
     highest.press("Enter")
     page.wait_for_url("**u_max=1.1**")
@@ -49,7 +49,7 @@ def test_every_view_says_that_the_loop_as_built_is_another(server, open_page):
     picture(page, "actuator-mark")
     page.get_by_role("button", name="Open the loop as built").click()
     idle(page)
-    expect(page.get_by_role("spinbutton", name="Highest u")).to_have_value("1.1")
+    expect(page.get_by_role("textbox", name="Highest u")).to_have_value("1.1")
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

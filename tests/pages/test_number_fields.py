@@ -46,7 +46,7 @@ FIELDS = {
     "N_outer": ("cascade", "Settings", "cascade_views", "", "widget_N_outer", "N_outer"),
     "k": ("plant", "", "views", "Factors", "plant_factors_k", None),
     "theta": ("plant", "", "views", "Polynomials", "plant_polynomials_theta", None),
-    "parameter": ("plant", "", "views", "Parameters", "plant_parameters_tau2", None),
+    "parameter": ("plant", "", "views", "k, θ, τ", "plant_parameters_tau2", None),
 }
 MORE = {"tau_c_inner": {"tau_c_inner": "2"}, "N_outer": {"method": "synthesis"}}
 OPTIONAL = {"u_max", "T_t", "parameter"}
@@ -215,7 +215,7 @@ def test_what_was_read_stands_in_words_beside_the_text():
 
 
 def test_parameters_one_by_one_make_the_plant():
-    app = opened("plant", "", "views", "Parameters")
+    app = opened("plant", "", "views", "k, θ, τ")
     assert [app.text_input(f"plant_parameters_{part}").value for part in ("k", "theta", "tau1", "tau2")] == [
         *("2", "3"),
         *("20", "4"),
@@ -233,7 +233,7 @@ def test_parameters_one_by_one_make_the_plant():
 
 def test_parameters_of_a_plant_that_is_no_such_model_begin_empty():
     app = run_page("plant", plant="(1-2s)/((10s+1)(6s+1)(s+1))")
-    app.segmented_control("plant_way").set_value("Parameters").run()
+    app.segmented_control("plant_way").set_value("k, θ, τ").run()
     assert app.text_input("plant_parameters_k").value == ""
     assert "Still to fill in: Gain k, Time constant τ₁" in texts(app)
     app.text_input("plant_parameters_k").set_value("-3").run()
@@ -251,7 +251,7 @@ def test_parameters_of_a_plant_that_is_no_such_model_begin_empty():
         ("half_rule", "", "views", "", {}),
         ("cascade", "Windup", "cascade_views", "", {"tau_c_inner": "2", "Ms_outer": "1.7"}),
         ("cascade", "Figures", "cascade_views", "", {"method": "synthesis", "tau_c_inner": "2"}),
-        ("plant", "", "views", "Parameters", {}),
+        ("plant", "", "views", "k, θ, τ", {}),
         ("plant", "", "views", "Factors", {}),
     ],
 )

@@ -20,6 +20,12 @@ from pages.common.session.links import number_text
 from simc_core.errors import SimcError
 from simc_core.numbers import read_number
 
+STYLE = """<style>
+[class*="st-key-refused_"] {gap: 0}
+[class*="st-key-refused_"] [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
+[class*="st-key-refused_"] p {font-size: 0.85rem; line-height: 1.35}
+</style>"""
+
 
 @dataclass(slots=True)
 class _Typed:
@@ -71,7 +77,9 @@ def number_field(
     place.text_input(label, key=key, on_change=_read, args=(label, typed, check, take, key, optional), **options)
     if typed.why:
         in_use = f"{number_text(value)} stays in use." if number_text(value) else "It stays empty."
-        (under or place).error(f"{typed.why}. {in_use}")
+        with (under or place).container(key=f"refused_{key}"):
+            st.html(STYLE)
+            st.error(f"{typed.why}. {in_use}")
 
 
 def design_number(name: str, label: str, *, show: Callable = lambda value: value, key: str = "", **options) -> None:

@@ -58,14 +58,14 @@ def text_field(name: str, way: str, draft: Draft, part: str, label: str, **optio
     st.text_input(label, key=key, live="400ms", on_change=_take_text, args=(name, draft, part, key), **options)
 
 
-def gain_field(name: str, way: str, draft: Draft, place: DeltaGenerator | None = None) -> None:
-    """The gain k."""
-    _number(name, way, draft, "k", "Gain k", checks.gain, place)
+def gain_field(name: str, way: str, draft: Draft, **places: DeltaGenerator) -> None:
+    """The gain k. places: place and under of the number field."""
+    _number(name, way, draft, "k", "Gain k", checks.gain, places)
 
 
-def dead_time_field(name: str, way: str, draft: Draft, place: DeltaGenerator | None = None) -> None:
-    """The dead time theta."""
-    _number(name, way, draft, "theta", "Dead time θ", checks.optional_time, place)
+def dead_time_field(name: str, way: str, draft: Draft, **places: DeltaGenerator) -> None:
+    """The dead time theta. places: place and under of the number field."""
+    _number(name, way, draft, "theta", "Dead time θ", checks.optional_time, places)
 
 
 def outcome(draft: Draft) -> None:
@@ -84,14 +84,12 @@ def _place_of(error: ParseError) -> str:
     return block(error.text[begin:end], f"{' ' * (error.position - begin)}^") if error.text.strip() else ""
 
 
-def _number(
-    name: str, way: str, draft: Draft, part: str, label: str, check: Callable, place: DeltaGenerator | None
-) -> None:
+def _number(name: str, way: str, draft: Draft, part: str, label: str, check: Callable, places: dict) -> None:
     def use(value: float) -> None:
         draft.fields[part] = value
         take(name, draft)
 
-    number_field(label, draft.fields[part], lambda value: check(label, value), use, f"{name}_{way}_{part}", place=place)
+    number_field(label, draft.fields[part], lambda value: check(label, value), use, f"{name}_{way}_{part}", **places)
 
 
 def _take_text(name: str, draft: Draft, part: str, key: str) -> None:

@@ -16,21 +16,19 @@ from simc_core import Plant, parse_plant
 from simc_core.notation import plain
 from simc_core.plants.examples import EXAMPLES
 
-WAYS = ("Text", "Parameters", "Factors", "Polynomials", "Examples")
+WAYS = ("Text", "k, θ, τ", "Factors", "Polynomials", "Examples")
+STYLE = """<style>
+:is(.st-key-plant_way, .st-key-Ga_way, .st-key-Gb_way) button {padding-inline: 0.5rem} /* all five side by side */
+</style>"""
 
 
 def plant_entry(name: str = "plant", title: str = "plant") -> Plant:
     """Widgets to enter the plant called `name` in design.py (plant, Ga or Gb). Returns the last good one."""
+    st.html(STYLE)
     way = st.segmented_control(
         f"Enter the {title} as", WAYS, default=WAYS[0], required=True, key=f"{name}_way", persist_state="session"
     )
-    show = {
-        "Text": _text,
-        "Parameters": parameters,
-        "Factors": _factors,
-        "Polynomials": _polynomials,
-        "Examples": _examples,
-    }
+    show = dict(zip(WAYS, (_text, parameters, _factors, _polynomials, _examples), strict=True))
     show[way](name)
     return state.value(name)
 
@@ -72,9 +70,9 @@ def _factors(name: str) -> None:
         return entries.plant_of_rows(fields["k"], fields["theta"], entries.edited(fields["rows"], edits))
 
     draft = draft_of(name, "factors", start, read)
-    gain, delay = st.columns(2)
-    gain_field(name, "factors", draft, gain)
-    dead_time_field(name, "factors", draft, delay)
+    (gain, delay), under = st.columns(2), st.container()
+    gain_field(name, "factors", draft, place=gain, under=under)
+    dead_time_field(name, "factors", draft, place=delay, under=under)
     if state.widget(_table_key(name, draft)) is None:  # not on the last page shown, its edits are lost: a fresh one
         draft.version += 1
         draft.fields["rows"] = entries.rows_of(draft.plant)

@@ -205,10 +205,18 @@ def widget(key: str, default: Any = None) -> Any:
 def set_widget(key: str, thing: Any) -> None:
     """Put a value into the widget of this key, before it is made.
 
-    Where the widget holds it already nothing is sent, so that typing that goes on is not overwritten.
+    Where the widget holds it already nothing is sent, so that typing that goes on is not overwritten; but what was
+    put in by a run that did not come to its end may never have reached the browser, and is sent again.
     """
-    if key not in st.session_state or st.session_state[key] != thing:
+    on_its_way = st.session_state.setdefault("on_its_way", set())
+    if key in on_its_way or key not in st.session_state or st.session_state[key] != thing:
         st.session_state[key] = thing
+        on_its_way.add(key)
+
+
+def end() -> None:
+    """The run has come to its end: the browser is told all of it."""
+    st.session_state["on_its_way"] = set()
 
 
 def ignored() -> list[Ignored]:

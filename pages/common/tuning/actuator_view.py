@@ -4,6 +4,7 @@ import math
 from html import escape
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.parts import strip
 from pages.common.parts.number_field import design_number
@@ -97,15 +98,16 @@ def guards_of(study: Study, actuator: Actuator) -> list[Advice]:
 
 
 def _inputs() -> None:
-    with st.container(key="actuator_inputs"):
-        _number("Lowest u", "u_min", LIMIT, "no limit")
-        _number("Highest u", "u_max", LIMIT, "no limit")
-        _number("Tracking time", "T_t", TRACKING, "automatic")
-        _number("Sampling of the controller", "sampling", SAMPLING)
-        _number("Measurement noise (std. dev.)", "noise", NOISE)
-        _number("Random seed", "seed", "The same number gives the same noise.")
-        _number("Set-point step", "r", HEIGHTS)
-        _number("Load step", "d", HEIGHTS)
+    fields, under = st.container(key="actuator_inputs"), st.container()
+    with fields:
+        _number("Lowest u", "u_min", LIMIT, "no limit", under=under)
+        _number("Highest u", "u_max", LIMIT, "no limit", under=under)
+        _number("Tracking time", "T_t", TRACKING, "automatic", under=under)
+        _number("Sampling of the controller", "sampling", SAMPLING, under=under)
+        _number("Measurement noise (std. dev.)", "noise", NOISE, under=under)
+        _number("Random seed", "seed", "The same number gives the same noise.", under=under)
+        _number("Set-point step", "r", HEIGHTS, under=under)
+        _number("Load step", "d", HEIGHTS, under=under)
 
 
 LIMIT = (
@@ -120,9 +122,9 @@ NOISE = "Standard deviation of the measurement noise, in the unit of y; a new va
 HEIGHTS = "Height of the step. It matters where u has limits: twice the step is not twice the response."
 
 
-def _number(label: str, name: str, help_: str, empty: str | None = None) -> None:
+def _number(label: str, name: str, help_: str, empty: str | None = None, *, under: DeltaGenerator) -> None:
     """A number of the actuator by its name in design.py; empty: what no number means, None where there must be one."""
-    design_number(name, label, optional=empty is not None, help=help_, placeholder=empty)
+    design_number(name, label, optional=empty is not None, under=under, help=help_, placeholder=empty)
 
 
 def numbers_html(found: AsBuilt) -> str:
