@@ -2,12 +2,14 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import sqrt
+from fractions import Fraction
+from math import inf, log, sqrt
 
 import numpy as np
 
 from simc_core import checks
 from simc_core.algebra.factors import quadratic_roots
+from simc_core.algebra.square_free import square_free
 from simc_core.errors import InvalidParameter
 
 CLUSTER_RADII = (0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # relative; tried from coarse to fine
@@ -27,8 +29,8 @@ class Factors:
 def factorise(name: str, polynomials: Iterable) -> Factors:
     """The product of `polynomials` (descending powers of s) as Factors.
 
-    Factors of degree 1 and 2 are exact; above that the roots come from the companion matrix, and
-    roots that are one multiple root within rounding are taken as such.
+    Factors of degree 1 and 2 are exact, and so are multiplicities of roots above that (square_free); simple roots come
+    from the companion matrix, and roots that are one multiple root within rounding are taken as such.
     Raises InvalidParameter: empty, zero or non-finite coefficients, degree above checks.MOST_FACTORS.
     """
     constant, at_origin = 1.0, 0
@@ -60,10 +62,11 @@ def _trimmed(name: str, polynomial) -> np.ndarray:
 def _check_sizes(name: str, coefficients: np.ndarray) -> None:
     """Refuse what no time constants within bounds can give, before it overflows."""
     degree = len(coefficients) - 1
-    ratios = [abs(float(c)) / abs(float(coefficients[-1])) for c in coefficients]
-    largest = [2.0**degree * checks.LONGEST_TIME ** (degree - i) for i in range(degree + 1)]
-    too_large = any(ratio > limit for ratio, limit in zip(ratios, largest, strict=True))
-    if degree > 1 and (too_large or ratios[0] < checks.LONGEST_TIME**-degree):
+    # logarithms: a product of forty of the longest times is no double any more
+    sizes = [log(abs(c)) - log(abs(coefficients[-1])) if c else -inf for c in coefficients.tolist()]
+    unit, room = log(checks.LONGEST_TIME), degree * log(2)
+    too_large = any(size > room + (degree - i) * unit for i, size in enumerate(sizes))
+    if degree > 1 and (too_large or sizes[0] < -degree * unit):
         raise InvalidParameter(
             f"time constants of the {name} must be between {1 / checks.LONGEST_TIME:g} and {checks.LONGEST_TIME:g}: "
             "coefficients of one polynomial must be of comparable size, "
@@ -79,6 +82,10 @@ def _roots(coefficients: np.ndarray) -> list[complex]:
         return [complex(-coefficients[1] / coefficients[0])]
     if degree == 2:
         return _quadratic(*coefficients)
+    parts = square_free(tuple(Fraction(float(c)) for c in reversed(coefficients)))
+    if len(parts) > 1 or parts[0][1] > 1:  # doubles are exact rationals, and whole numbers stay whole
+        simple = [(np.array([float(c) for c in reversed(part)]), multiplicity) for part, multiplicity in parts]
+        return [root for part, multiplicity in simple for root in _roots(part) for _ in range(multiplicity)]
     with np.errstate(all="ignore"):
         scale = (abs(coefficients[-1]) / abs(coefficients[0])) ** (1 / degree)
         scaled = coefficients * scale ** np.arange(degree, -1.0, -1.0)

@@ -114,8 +114,10 @@ def _with_lobes(found, turns: Turns, values: np.ndarray, below: np.ndarray, leve
 def _polished(own: np.ndarray, rounding, low, high, first, last) -> tuple[np.ndarray, np.ndarray]:
     """Zeros of columns (P, k) between low and high, where they are first and last: x, and the basis next to it."""
     parts, width, below = (TAYLOR @ own).reshape(3, P, -1), high - low, first < 0
-    x, short = low - first * width / (last - first), SHORT * width
+    short = SHORT * width
     with np.errstate(divide="ignore", invalid="ignore"):
+        # values of one sign, which rounding leaves where a series just touches a level, have no secant inside
+        x = np.fmin(np.fmax(low - first * width / (last - first), low), high)
         for _ in range(MOST_STEPS):
             f, following, bent = _step(x, parts, chebyshev_basis(x))
             near = ((np.abs(following - x) <= short) & (np.abs(bent) <= BENT)) | (np.abs(f) <= rounding)

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from simc_core import checks
 from simc_core.algebra.polynomials import factorise
+from simc_core.algebra.square_free import square_free
 from simc_core.errors import InvalidParameter
 from simc_core.plants.plant import Plant
 
@@ -67,8 +68,17 @@ def _time_constants(name: str, polynomial: Polynomial) -> tuple[list[float], lis
     if len(polynomial) == 3 and polynomial[1] ** 2 < 4 * polynomial[2]:
         tau = checks.positive_time("tau", math.sqrt(_float(field, polynomial[2])))
         return [], [(tau, float(polynomial[1] / (2 * Fraction(tau))))]
-    factors = factorise(name, [[_float(field, c) for c in reversed(polynomial)]])
-    return list(factors.times), list(factors.pairs)
+    parts = square_free(polynomial)
+    if len(parts) == 1 and parts[0][1] == 1:
+        factors = factorise(name, [[_float(field, c) for c in reversed(polynomial)]])
+        return list(factors.times), list(factors.pairs)
+    times: list[float] = []
+    pairs: list[tuple[float, float]] = []
+    for part, multiplicity in parts:
+        more_times, more_pairs = _time_constants(name, tuple(c / part[0] for c in part))
+        times += more_times * multiplicity
+        pairs += more_pairs * multiplicity
+    return times, pairs
 
 
 def _float(name: str, value: Fraction) -> float:

@@ -16,9 +16,9 @@ import math
 
 import numpy as np
 
-from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.simulation.actuator.actuation import usual_tracking_time
 from simc_core.simulation.actuator.one_step import Linear
 from simc_core.simulation.several_delays.network import Network, integral_states, network
 from simc_core.simulation.simulate_nested import NestedResponse, horizon
@@ -85,23 +85,17 @@ def _tracking(loops: NestedLoops, n: int, protection: str) -> np.ndarray:
     if protection == "none":
         return column
     integrals = integral_states(loops)
-    gain, innermost = 1.0, True
-    for controller, state in zip(loops.controllers, integrals, strict=True):
+    gain, innermost, controlled = 1.0, True, 1.0
+    for block, controller, state in zip(loops.blocks, loops.controllers, integrals, strict=True):
+        controlled *= block.k  # of all blocks since the last controller: the loops inside follow their set points
         if controller is None:
             continue
+        form, time = controller.to_parallel(), usual_tracking_time(controller, controlled)
         if state is not None and (innermost or protection == "both"):
-            column[state] = 1 / (gain * _tracking_time(controller))
-        form = controller.to_parallel()
-        gain *= form.Kp or form.Ki * _tracking_time(controller)
-        innermost = False
+            column[state] = 1 / (gain * time)
+        gain *= form.Kp or form.Ki * time
+        innermost, controlled = False, 1.0
     return column
-
-
-def _tracking_time(controller: Controller) -> float:
-    form = controller.to_parallel()
-    if form.Kd * form.Ki > 0:
-        return math.sqrt(form.Kd / form.Ki)
-    return abs(form.Kp / form.Ki) if form.Kp and form.Ki else 1.0
 
 
 def _run(

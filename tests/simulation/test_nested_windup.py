@@ -1,10 +1,22 @@
 """Limited actuator under nested loops: the linear engine where nothing saturates, and what protection must achieve."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from simc_core import CascadeLoop, InvalidParameter, ParallelPid, Plant, Scenario, simc_cascade, simulate
+from simc_core import (
+    CascadeLoop,
+    IController,
+    InvalidParameter,
+    ParallelPid,
+    Plant,
+    Scenario,
+    SeriesPid,
+    simc_cascade,
+    simulate,
+)
 from simc_core.simulation.nested_windup import PROTECTIONS, limited
 from tests.oracles.pairs import PAIRS
 
@@ -112,3 +124,16 @@ def test_with_dead_times_against_a_difference_equation(protection):
     assert np.mean(found.u == LIMITS[1]) > 0.1
     assert distances[0] < 5e-3
     assert distances[1] == pytest.approx(distances[0] / 2, rel=0.1)
+
+
+@pytest.mark.parametrize("protection", PROTECTIONS)
+def test_minutes_are_seconds_with_an_integrating_controller_inside(protection):
+    """The tracking time of pure I action is a time too: 1/|K_I k|, not 1."""
+    seconds = CascadeLoop(Plant(2.0, 2.0, (30.0,)), Plant(1.5, 3.0), IController(0.1), SeriesPid(1.0, 30.0))
+    time = Fraction(1, 64)
+    blocks = (each.rescaled(time) for each in (seconds.primary, seconds.secondary))
+    other = CascadeLoop(*blocks, seconds.outer.rescaled(time), seconds.inner.rescaled(time))
+    first = limited(seconds, -0.4, 0.6, protection, t_end=320.0)
+    second = limited(other, -0.4, 0.6, protection, t_end=5.0)
+    assert np.max(np.abs(first.y - second.y)) < 1e-12
+    assert np.max(np.abs(first.u - second.u)) < 1e-12

@@ -188,10 +188,10 @@ class _Walk:
     def _decide(self, which: list[int], at, level: int, step: list[np.ndarray]) -> None:
         """Keep what is good enough, shorten what is not; choose the level of the next element."""
         on_mesh, parts = level == 0 and self.theta > 0, self._parts(level)
-        last = step[-len(parts) :]
-        found = _largest([np.maximum.reduceat(np.abs(out[:, :END]), PARTS, axis=1) for out in last])
-        found = found.reshape(-1, 3, 2, 2)
-        largest = np.maximum(found[:, 0], self.largest[at])
+        sizes = [np.maximum.reduceat(np.abs(out[:, :END]), PARTS, axis=1) for out in step]
+        found = _largest(sizes[-len(parts) :]).reshape(-1, 3, 2, 2)
+        # of all outputs of the step, not of its last elements alone: what rounding leaves is measured against it
+        largest = np.maximum(_largest(sizes).reshape(-1, 3, 2, 2)[:, 0], self.largest[at])
         _, middles, tails = np.maximum.reduce(found / largest[:, None], axis=(2, 3)).T.tolist()
         if on_mesh and max(tails) > self.coarse:
             raise _TooCoarse
