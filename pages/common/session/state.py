@@ -24,6 +24,7 @@ from pages.common.session.loops import Loops
 from simc_core import Plant
 
 ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
+SENT_AGAIN = 5.0  # seconds for which a value put into a widget may be overtaken; the first run of a server is slow
 
 
 def begin() -> Design:
@@ -205,18 +206,19 @@ def widget(key: str, default: Any = None) -> Any:
 def set_widget(key: str, thing: Any) -> None:
     """Put a value into the widget of this key, before it is made.
 
-    Where the widget holds it already nothing is sent, so that typing that goes on is not overwritten; but what was
-    put in by a run that did not come to its end may never have reached the browser, and is sent again.
+    Where the widget holds it already nothing is sent, so that typing that goes on is not overwritten. Only a value that
+    was put in a moment ago is sent again: a run that overtook that one may have kept it from the browser.
     """
-    on_its_way = st.session_state.setdefault("on_its_way", set())
-    if key in on_its_way or key not in st.session_state or st.session_state[key] != thing:
+    sent = st.session_state.setdefault("sent", {})
+    if key not in st.session_state or st.session_state[key] != thing:
         st.session_state[key] = thing
-        on_its_way.add(key)
-
-
-def end() -> None:
-    """The run has come to its end: the browser is told all of it."""
-    st.session_state["on_its_way"] = set()
+        sent[key] = thing, time.monotonic() + SENT_AGAIN
+    elif key in sent:
+        first, until = sent[key]
+        if first == thing and time.monotonic() < until:
+            st.session_state[key] = thing
+        else:
+            del sent[key]
 
 
 def ignored() -> list[Ignored]:

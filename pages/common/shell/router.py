@@ -16,4 +16,3 @@ pages = {
 current = st.navigation({group: [pages[name] for name in titles] for group, titles in header.GROUPS.items()})
 state.offer_pages(pages)
 current.run()
-state.end()
