@@ -151,14 +151,16 @@ def test_trade_off_lecture_and_picture(server, open_page):
     assert download.value.suggested_filename.endswith(".png")
 
 
-def test_what_if_moves_up_and_down_and_stops_where_it_is(server, open_page):
+def test_a_sweep_moves_up_and_down_and_goes_back_to_where_it_began(server, open_page):
     page = opened(open_page, server)
-    start = tau_c(page)
-    page.get_by_role("button", name="What if").click()
+    start, address = tau_c(page), page.url
+    page.get_by_role("button", name="Sweep").click()
     page.wait_for_timeout(1000)
-    page.get_by_role("button", name="What if").click()
     assert tau_c(page) > 1.2 * start
+    page.get_by_role("button", name="Sweep").click()
+    assert tau_c(page) == start
     at_rest(page)
+    assert page.url == address
 
 
 def test_the_theme_changes_the_colours_of_the_axes(server, open_page):

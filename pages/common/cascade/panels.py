@@ -16,7 +16,7 @@ from simc_core.figures.curves import bode_curve, nested_bode_curve
 from simc_core.notation import number
 from simc_core.sensitivity.margins import crossings
 
-HEIGHT, TALL = 215, 400  # px
+HEIGHT, TALL = 203, 400  # px
 
 
 def panels(study: CascadeStudy) -> None:
