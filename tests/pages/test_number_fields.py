@@ -246,6 +246,7 @@ def test_parameters_of_a_plant_that_is_no_such_model_begin_empty():
     [
         ("tuning", "Figures", "views", "", {}),
         ("tuning", "Model error", "views", "", {}),
+        ("tuning", "Figures", "views", "", {"tau_c": "0.5", "order": "2"}),  # with advice, which is buttons
         ("tuning", "As built", "views", "", {}),
         ("tuning", "Figures", "views", "", {"plant": "1/(s^2+1)"}),
         ("half_rule", "", "views", "", {}),
@@ -260,7 +261,7 @@ def test_names_of_widgets_are_words_and_not_formulas(page, view, tabs, way, para
     app = run_page(page, view, tabs, **parameters)
     if way:
         app.segmented_control("plant_way").set_value(way).run()
-    kinds = ("text_input", "segmented_control", "select_slider", "slider", "checkbox", "selectbox")
+    kinds = ("text_input", "button", "segmented_control", "select_slider", "slider", "checkbox", "selectbox")
     widgets = [widget for kind in kinds for widget in app.get(kind)]
     assert widgets
     options = [option for widget in widgets for option in getattr(widget, "options", [])]

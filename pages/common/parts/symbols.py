@@ -52,6 +52,11 @@ def symbols(text: str) -> str:
     return NEGATIVE.sub("−", WORD.sub(lambda found: SYMBOLS[found[0]], text))
 
 
+def spoken(text: str) -> str:
+    """The same without formulas, for the name of a button, which a screen reader says as it is written."""
+    return re.sub(r"[$_{}]", "", symbols(text).replace(r"\tau", "τ"))
+
+
 def sentence(text: str) -> str:
     """The same with a capital at its beginning, unless that is a symbol."""
     shown = symbols(text)

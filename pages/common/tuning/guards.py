@@ -3,7 +3,7 @@
 import streamlit as st
 
 from pages.common.parts.refusals import STYLE
-from pages.common.parts.symbols import symbols
+from pages.common.parts.symbols import spoken, symbols
 from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
@@ -26,7 +26,7 @@ def proposal(item: Advice) -> None:
     PLACES[item.level](words(item))
     if item.change and "Kc" not in item.change:  # settings are typed, not made from choices
         st.button(
-            symbols(in_words(item.change)),
+            spoken(in_words(item.change)),
             key=f"remedy_{item.quantity}",
             type="tertiary",
             icon=":material/arrow_forward:",
