@@ -42,6 +42,18 @@ def test_simc_settings_are_taken_over_and_changed_by_hand():
     assert not app.exception
 
 
+def test_my_settings_stay_in_the_form_they_were_typed_in_until_another_is_chosen():
+    """Ideal 2, 9, 2 is series with f = (1 + sqrt(1 - 8/9))/2 = 2/3: Kc 4/3, tau_I 6, tau_D 3 [SG12 eq. 5.7]."""
+    app = run_page("tuning", "Figures", plant=HEATER, own="ideal~2~9~2~0~1~0", controller="own")
+    assert address(app)["own"] == "ideal~2~9~2~0~1~0"
+    app.segmented_control(key="widget_form").set_value("ideal").run()
+    app.segmented_control(key="widget_form").set_value("series").run()
+    series = links.settings_of(address(app)["own"])
+    assert (series.Kc, series.tau_I, series.tau_D) == pytest.approx((4 / 3, 6.0, 3.0))
+    fields = {field.label: float(field.value) for field in app.text_input if field.label in ("Kc", "τI", "τD")}
+    assert fields == pytest.approx({"Kc": 4 / 3, "τI": 6.0, "τD": 3.0})  # no field shows the form of before
+
+
 def test_a_design_stands_against_the_settings_in_the_plant_now():
     app = run_page("tuning", "Figures", plant=HEATER, now=NOW)
     assert "Load IAE 2.6 times smaller" in texts(app)

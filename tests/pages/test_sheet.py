@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from pages.common.session.design import Design, Tuning, in_time_unit
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import study
-from simc_core import IdealPid, InvalidParameter, Plant, SeriesPid
+from simc_core import IdealPid, InvalidParameter, Plant, SeriesPid, parse_plant
 from tests.pages.test_links import designs
+from tests.pages.tools import address, run_page, texts
 
 HEATER = Design(Plant(2.2, 20.0, (180.0,)), own=IdealPid(1.2, 240.0), sheet=Sheet(time_unit="s"))
 
@@ -60,3 +61,18 @@ def test_a_range_that_ends_before_it_begins_is_refused():
 
 def test_the_gain_of_a_controller_falls_as_that_of_the_plant_grows():
     assert SeriesPid(2.0, 120.0, 30.0).rescaled(gain=0.5) == SeriesPid(1.0, 120.0, 30.0)
+
+
+def test_a_unit_in_which_a_number_is_out_of_bounds_is_refused_in_words_and_nothing_changes():
+    app = run_page("tuning", plant="exp(-1e6s)/(1e7s+1)", unit="h")
+    app.selectbox(key="sheet_unit").set_value("ms").run()
+    assert not app.exception
+    assert address(app)["unit"] == "h"
+    assert "the unit stays h" in texts(app)
+
+
+def test_another_unit_converts_what_is_on_the_page_and_says_so():
+    app = run_page("tuning", plant="2.2exp(-20s)/(180s+1)", unit="s")
+    app.selectbox(key="sheet_unit").set_value("min").run()
+    assert parse_plant(address(app)["plant"]).lags == (3.0,)
+    assert "converted from s to min" in texts(app)

@@ -26,8 +26,7 @@ def my_plant() -> None:
         tune = button.form_submit_button("Tune", type="primary", width="stretch")
     st.caption(
         "Dead time exact, negative gain, integrators and unstable poles included; a decimal comma is understood. "
-        "Without a transfer function: the page *Plant* takes gain, dead time and time constants, or the facts of a "
-        "step test."
+        "Without a transfer function: the page *Plant* takes gain, dead time and time constants one by one."
     )
     if tune:
         with explain_refusal():

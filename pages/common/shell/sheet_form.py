@@ -6,6 +6,7 @@ from pages.common.parts.number_field import design_number
 from pages.common.session import state
 from pages.common.session.design import in_time_unit
 from pages.common.session.sheet import LONGEST, TIME_UNITS
+from simc_core.errors import SimcError
 
 SIGNALS = (("PV", "Measurement PV"), ("OP", "Output OP"))
 
@@ -42,8 +43,14 @@ def _text(name: str, label: str) -> None:
 
 def _take_unit() -> None:
     old, new = state.value("unit"), state.widget("sheet_unit")
-    state.replace_design(in_time_unit(state.design_now(), new))
-    if old and new and old != new:
-        state.remember("unit_said", f"All times were converted from {old} to {new}: the loop is the same.")
-    else:
-        state.remember("unit_said", "")
+    try:
+        state.replace_design(in_time_unit(state.design_now(), new))
+    except SimcError as error:
+        state.remember(
+            "unit_said", f"Not converted, the unit stays {old}: in {new} a number would be out of bounds ({error})."
+        )
+        return
+    converted = old and new and old != new
+    state.remember(
+        "unit_said", f"All times were converted from {old} to {new}: the loop is the same." * bool(converted)
+    )

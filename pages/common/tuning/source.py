@@ -9,8 +9,8 @@ import streamlit as st
 from pages.common.parts.number_field import number_field
 from pages.common.session import state
 from pages.common.studies.single import Study, study_of_settings
-from simc_core.controllers.forms import Controller, IController, IdealPid
-from simc_core.errors import FormError, SimcError
+from simc_core.controllers.forms import FORMS, Controller, IController, IdealPid
+from simc_core.errors import SimcError
 from simc_core.plants.plant import Plant
 from simc_core.studies.retune import what_changes
 
@@ -120,15 +120,19 @@ def change_in_words(baseline: Study, present: Study) -> str:
     return what_changes((baseline.margins, baseline.performance), (present.margins, present.performance))
 
 
-def change_form(form: str) -> None:
-    """My settings in another form, where they have it."""
-    own = state.value("own")
-    if own is None:
-        return
-    try:
+def form_control() -> None:
+    """The form in which settings are shown; choosing another one rewrites my settings in it, where they have it."""
+    state.set_widget("widget_form", state.value("form"))
+    st.segmented_control(
+        "Form", FORMS, label_visibility="collapsed", required=True, key="widget_form", on_change=_take_form
+    )
+
+
+def _take_form() -> None:
+    form, own = state.widget("widget_form"), state.value("own")
+    state.change(form=form)
+    if state.value("controller") == "own" and own.has_form(form):
         state.change(own=own.in_form(form))
-    except FormError as error:
-        st.toast(str(error))
 
 
 def action(controller: Controller) -> str:

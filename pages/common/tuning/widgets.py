@@ -12,8 +12,8 @@ from pages.common.parts.settings_text import STRUCTURE, as_text
 from pages.common.session import state
 from pages.common.session.design import KINDS
 from pages.common.studies.single import Study
-from pages.common.tuning.source import action, change_form
-from simc_core.controllers.forms import FORMS, IController
+from pages.common.tuning.source import action, form_control
+from simc_core.controllers.forms import IController
 from simc_core.errors import FormError
 from simc_core.notation import latex, number
 from simc_core.plants.models import Model, UnstableDelay
@@ -112,9 +112,7 @@ def structure() -> None:
 def settings(study: Study) -> None:
     """The controller in the form chosen, typeset, and as text to copy with all its digits."""
     form = state.value("form")
-    st.segmented_control("Form", FORMS, label_visibility="collapsed", **state.bound("form"))
-    if study.tuned is None:
-        change_form(form)
+    form_control()
     try:
         shown = study.controller.in_form(form)
     except FormError as error:
