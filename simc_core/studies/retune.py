@@ -10,30 +10,36 @@ SAME = 0.02  # relative: a change that nobody would see
 DIGITS = 3
 
 
-def what_changes(before: tuple[Margins, Performance | None], after: tuple[Margins, Performance | None]) -> str:
-    """The change from the settings in the plant now to those of a design.
+def what_changes(
+    before: tuple[Margins, Performance | None],
+    after: tuple[Margins, Performance | None],
+    new: str = "the new settings",
+) -> str:
+    """The change from one loop to another, for instance from the settings in the plant now to those of a design.
 
     Parameters
     ----------
     before, after : tuple of Margins and Performance
-        Of the two loops around the same plant; the performance is None where the loop is not stable.
+        Of the two loops; the performance is None where the loop is not stable.
+    new : str
+        What is new in the second one.
 
     Returns
     -------
     str
         For instance "Load IAE 2.6 times smaller, set-point IAE 1.9 times smaller; Ms 1.29 → 1.60."
     """
-    (old, was), (new, will) = before, after
-    if not new.stable:
-        return "With the new settings the loop is not stable" + ("; now it is." if old.stable else ", nor is it now.")
+    (old, was), (judged, will) = before, after
+    if not judged.stable:
+        return f"With {new} the loop is not stable" + ("; without it is." if old.stable else ", nor is it without.")
     if not old.stable:
-        return f"Now the loop is not stable; with the new settings it is, with Ms = {number(new.Ms, DIGITS)}."
+        return f"The loop is not stable; with {new} it is, with Ms = {number(judged.Ms, DIGITS)}."
     parts = [
         _times("Load IAE", was.disturbance.IAE, will.disturbance.IAE),
         _times("set-point IAE", was.setpoint.IAE, will.setpoint.IAE),
     ]
     found = ", ".join(part for part in parts if part) or "Integrals of the error cannot be compared"
-    return f"{found}; Ms {number(old.Ms, DIGITS)} → {number(new.Ms, DIGITS)}."
+    return f"{found}; Ms {number(old.Ms, DIGITS)} → {number(judged.Ms, DIGITS)}."
 
 
 def _times(name: str, old: float, new: float) -> str:

@@ -93,3 +93,10 @@ def test_a_plant_that_is_dragged_keeps_its_controller():
     assert turned.controller == present.controller
     assert margins(turned).delay_margin == pytest.approx(present.margins.delay_margin - 6.0, rel=1e-9)
     assert study_of_settings(turned.plant, turned.controller).tau_c is None
+
+
+def test_a_proportional_controller_has_margins_but_no_integrals_and_the_reason_is_true():
+    app = run_page("tuning", "Figures", plant=HEATER, own="ideal~1.2~inf~0~0~1~0", controller="own")
+    assert not app.exception
+    assert "keeps an offset" in strip(app)
+    assert "stability limit" not in strip(app)

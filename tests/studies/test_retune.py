@@ -32,5 +32,12 @@ def test_the_same_settings_change_nothing():
 
 def test_a_loop_that_is_not_stable_has_no_figures_to_compare():
     stable, not_stable = judged(IdealPid(1.2, 240.0)), judged(SeriesPid(50.0, 240.0))
-    assert what_changes(stable, not_stable) == "With the new settings the loop is not stable; now it is."
-    assert what_changes(not_stable, stable).startswith("Now the loop is not stable; with the new settings it is")
+    assert what_changes(stable, not_stable) == "With the new settings the loop is not stable; without it is."
+    assert what_changes(not_stable, stable).startswith("The loop is not stable; with the new settings it is")
+
+
+def test_a_changed_plant_is_not_called_new_settings():
+    settings = IdealPid(1.2, 240.0)
+    slower = Loop(Plant(2.2, 800.0, (180.0,)), settings)
+    said = what_changes(judged(settings), (margins(slower), None), "this change of the plant")
+    assert said == "With this change of the plant the loop is not stable; without it is."

@@ -67,7 +67,7 @@ def reading(name: str, value: float, label: str = "") -> Reading:
     if math.isinf(value):
         exact = "infinite: no limit"
     if math.isnan(value):
-        exact = "not known: too near its stability limit, the loop does not come to rest in reach"
+        exact = "no number: the loop keeps an offset (no integral action), or does not come to rest in reach"
     return Reading(label or quantity.label, quantity.text(value), exact, quantity.meaning)
 
 

@@ -41,7 +41,7 @@ def _what_if(present: Study, behind: list[tuple[str, Study]]) -> None:
         st.caption("The controller stays as it is. Drag the gain, the dead time or the largest time constant.")
         return
     words, back, take = st.columns([6, 2, 2], vertical_alignment="center")
-    words.markdown(f"**With this plant, the same settings:** {change_in_words(present, turned)}")
+    words.markdown(f"**The settings are the same:** {change_in_words(present, turned, 'this change of the plant')}")
     back.button("Back to the plant", width="stretch", key="what_if_back", on_click=live.put_back)
     take.button(
         "Make it the plant",

@@ -115,9 +115,9 @@ def in_the_plant_now(plant: Plant, present: Study | None) -> Study | None:
         return None
 
 
-def change_in_words(baseline: Study, present: Study) -> str:
-    """What going from the settings now to those of the design brings and costs."""
-    return what_changes((baseline.margins, baseline.performance), (present.margins, present.performance))
+def change_in_words(before: Study, after: Study, new: str = "the new settings") -> str:
+    """What going from one loop to another brings and costs; new: what is new in the second."""
+    return what_changes((before.margins, before.performance), (after.margins, after.performance), new)
 
 
 def form_control() -> None:
