@@ -53,8 +53,8 @@ def loops() -> Loops:
 
 
 def take_loops(changed: Loops) -> None:
-    """Another list of loops, for example with another one in use; what pages remember of the last one is forgotten."""
-    if changed.entries[changed.current].id != loops().entries[loops().current].id:
+    """Another list of loops, for example with another one in use; what pages remember of another design is forgotten."""
+    if changed.design != loops().design:
         for name in [name for name in st.session_state if str(name).startswith("memory_")]:
             del st.session_state[name]
     _keep(changed)
