@@ -53,7 +53,7 @@ def loops() -> Loops:
 
 
 def take_loops(changed: Loops) -> None:
-    """Another list of loops, for example with another one in use; what pages remember of another design is forgotten."""
+    """Another list of loops, perhaps with another one in use; what pages remember of another design is forgotten."""
     if changed.design != loops().design:
         for name in [name for name in st.session_state if str(name).startswith("memory_")]:
             del st.session_state[name]
