@@ -3,12 +3,14 @@
 import base64
 import json
 import re
+import time
 
 import numpy as np
 import pytest
 
 from pages.common.cascade.readout import strip_html
 from pages.common.session.design import Cascade
+from pages.common.session.state import ANSWERED
 from pages.common.studies.cascade import attempt, of_row, study, time_responses
 from simc_core import Plant
 from simc_core.cascade.pairs import ROWS
@@ -99,6 +101,7 @@ def test_choosing_a_pair_shows_its_peaks_and_integrals():
     assert [float(shown[i]) for i in (0, 7)] == pytest.approx([2.0, 2.0], abs=0.01)  # Msa, Msb
     assert [float(shown[i]) for i in (5, 6)] == pytest.approx([9.47, 2.31], rel=0.01)  # the exact Ms moves them
     assert app.selectbox(key="pair").value.startswith("Pair 1a")
+    time.sleep(ANSWERED)  # the page runs alone here: nobody tells that the run which put 0 in place of 1 has ended
     app.text_input(key="widget_b_outer").set_value("1").run()
     assert app.selectbox(key="pair").value is None
 

@@ -1,5 +1,6 @@
 """Several loops: new, duplicate, switch, delete; nothing of one leaks into the next; what a browser keeps is joined."""
 
+import time
 from dataclasses import replace
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from pages.common.session.design import Design, Tuning
 from pages.common.session.loops import MOST_LOOPS, Entry, Loops
 from pages.common.session.sheet import Sheet
+from pages.common.session.state import ANSWERED
 from simc_core import InvalidParameter, Plant
 from tests.pages.tools import address, run_page
 
@@ -49,5 +51,18 @@ def test_the_page_begins_another_loop_with_nothing_of_the_last_one():
     assert not app.exception
     assert "tau_c" not in address(app)
     assert "u_max" not in address(app)
+    time.sleep(ANSWERED)  # the page runs alone here: nobody tells that the run which chose the new loop has ended
     app.selectbox(key="loop").set_value(0).run()
     assert address(app)["tau_c"] == "180"
+
+
+def test_what_a_run_has_just_put_into_a_field_is_not_undone_by_a_report_from_before():
+    """A choice of speed puts its number into the field, and a message comes that still holds the former one."""
+    app = run_page("tuning", "Figures", plant="2.2exp(-20s)/(180s+1)", tau_c="40")
+    field = app.text_input(key="tau_c_exact")
+    assert field.value == "40"
+    app.button(key="multiple_1.5").click().run()
+    assert address(app)["speed"] == "1.5theta"
+    app.text_input(key="tau_c_exact").set_value("40").run()  # within ANSWERED, and the same text as before
+    assert address(app)["speed"] == "1.5theta"
+    assert "tau_c" not in address(app)

@@ -211,6 +211,8 @@ def _asked(cascade: Cascade, loop: str) -> str:
 
 def _take_asked(loop: str, key: str, study: CascadeStudy | None) -> None:
     """Begin with what the loop has now."""
+    if state.overtaken(key):
+        return
     asked, cascade = state.widget(key), state.cascade()
     if asked is None:
         return
@@ -225,6 +227,8 @@ def _take_asked(loop: str, key: str, study: CascadeStudy | None) -> None:
 
 def _take_method() -> None:
     """A lambda is not a tau_c: what was given as one does not stay as the other."""
+    if state.overtaken("method"):
+        return
     chosen = state.widget("method")
     if chosen is not None and chosen != state.value("method"):
         state.change(method=chosen, tau_c_inner=None, tau_c_outer=None)

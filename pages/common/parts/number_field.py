@@ -107,6 +107,8 @@ def design_number(name: str, label: str, *, show: Callable = lambda value: value
 
 def _read(label: str, typed: _Typed, check: Callable, take: Callable, key: str, optional: bool) -> None:
     """Callback: use what was typed, or say why not."""
+    if state.overtaken(key):
+        return
     typed.text = (state.widget(key) or "").strip()
     typed.why = _refusal(label, typed.text, check, optional)
     if not typed.why:

@@ -93,5 +93,7 @@ def _number(name: str, way: str, draft: Draft, part: str, label: str, check: Cal
 
 
 def _take_text(name: str, draft: Draft, part: str, key: str) -> None:
+    if state.overtaken(key):
+        return
     draft.fields[part] = state.widget(key) or ""
     take(name, draft)

@@ -107,6 +107,8 @@ def _examples(name: str) -> None:
 
 
 def _take_example(name: str, key: str) -> None:
+    if state.overtaken(key):
+        return
     chosen = state.widget(key)
     plant = next(example.plant for example in EXAMPLES if example.name == chosen)
     state.change(**{name: plant})

@@ -119,6 +119,8 @@ def _take(name: str, kind: str, part: str, typed: _Parameters, value: float | No
 
 
 def _take_kind(name: str, typed: _Parameters, key: str) -> None:
+    if state.overtaken(key):
+        return
     _settle(name, state.widget(key), typed)
 
 

@@ -23,6 +23,9 @@ from pages.common.session.links import Ignored
 from pages.common.session.loops import Loops
 from simc_core import Plant
 
+ANSWERED = (
+    1.0  # seconds in which the browser has heard what a run put into a widget; nobody types the old value anew in it
+)
 ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
 SENT_AGAIN = 5.0  # seconds for which a value put into a widget may be overtaken; the first run of a server is slow
 
@@ -179,6 +182,8 @@ def bound(
 
 def _take(key: str, name: str, read: Callable, optional: bool) -> None:
     given = st.session_state[key]
+    if overtaken(key):
+        return
     if given is not None:
         change(**{name: read(given)})
     elif optional:
@@ -211,6 +216,9 @@ def set_widget(key: str, thing: Any) -> None:
     """
     sent = st.session_state.setdefault("sent", {})
     if key not in st.session_state or st.session_state[key] != thing:
+        if key in st.session_state:
+            replaced = st.session_state.setdefault("replaced", {})
+            replaced[key] = st.session_state[key], time.monotonic() + ANSWERED
         st.session_state[key] = thing
         sent[key] = thing, time.monotonic() + SENT_AGAIN
     elif key in sent:
@@ -219,6 +227,21 @@ def set_widget(key: str, thing: Any) -> None:
             st.session_state[key] = thing
         else:
             del sent[key]
+
+
+def run_ended() -> None:
+    """The router tells that a run has come to its end: all it put into widgets was sent, and what they report is new."""
+    st.session_state["replaced"] = {}
+
+
+def overtaken(key: str) -> bool:
+    """Whether the widget of this key reports what a run has just replaced: the browser spoke before it heard of it.
+
+    So it is where two messages come close together, and the second one ends the run that answers the first. For
+    callbacks: to take such a report for an edit would undo what was decided in between.
+    """
+    former, until = st.session_state.get("replaced", {}).get(key, (None, 0.0))
+    return time.monotonic() < until and st.session_state.get(key) == former
 
 
 def ignored() -> list[Ignored]:

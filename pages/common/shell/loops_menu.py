@@ -44,6 +44,8 @@ def _take_kept() -> None:
 
 
 def _switch() -> None:
+    if state.overtaken("loop"):
+        return
     state.take_loops(state.loops().switched(state.widget("loop")))
 
 

@@ -16,3 +16,4 @@ pages = {
 current = st.navigation({group: [pages[name] for name in titles] for group, titles in header.GROUPS.items()})
 state.offer_pages(pages)
 current.run()
+state.run_ended()

@@ -42,6 +42,8 @@ def _text(name: str, label: str) -> None:
 
 
 def _take_unit() -> None:
+    if state.overtaken("sheet_unit"):
+        return
     old, new = state.value("unit"), state.widget("sheet_unit")
     try:
         state.replace_design(in_time_unit(state.design_now(), new))

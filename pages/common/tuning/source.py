@@ -35,6 +35,8 @@ def source_control(made: Study | None) -> None:
 
 
 def _choose(offered: Controller) -> None:
+    if state.overtaken("controller_source"):
+        return
     chosen = state.widget("controller_source")
     if chosen == "own" and state.value("own") is None:
         state.change(own=_shown_in_form(offered))
@@ -129,6 +131,8 @@ def form_control() -> None:
 
 
 def _take_form() -> None:
+    if state.overtaken("widget_form"):
+        return
     form, own = state.widget("widget_form"), state.value("own")
     state.change(form=form)
     if state.value("controller") == "own" and own.has_form(form):

@@ -77,6 +77,8 @@ def _slider(model: Model, tau_c: float) -> None:
 
 
 def _slid(model: Model, scale: float) -> None:
+    if state.overtaken("tau_c_slider"):
+        return
     state.change(**live.as_choice(model, state.widget("tau_c_slider") * scale))
 
 
