@@ -230,7 +230,7 @@ def set_widget(key: str, thing: Any) -> None:
 
 
 def run_ended() -> None:
-    """The router tells that a run has come to its end: all it put into widgets was sent, and what they report is new."""
+    """The router tells that a run has ended: all it put into widgets was sent, and what they report from now on is new."""
     st.session_state["replaced"] = {}
 
 
