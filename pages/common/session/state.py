@@ -230,7 +230,7 @@ def set_widget(key: str, thing: Any) -> None:
 
 
 def run_ended() -> None:
-    """The router tells that a run has ended: all it put into widgets was sent, and what they report from now on is new."""
+    """The router tells that a run has ended: what it put into widgets was sent, what they report now is new."""
     st.session_state["replaced"] = {}
 
 
