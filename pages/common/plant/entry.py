@@ -17,14 +17,10 @@ from simc_core.notation import plain
 from simc_core.plants.examples import EXAMPLES
 
 WAYS = ("Text", "k, θ, τ", "Factors", "Polynomials", "Examples")
-STYLE = """<style>
-:is(.st-key-plant_way, .st-key-Ga_way, .st-key-Gb_way) button {padding-inline: 0.5rem} /* all five side by side */
-</style>"""
 
 
 def plant_entry(name: str = "plant", title: str = "plant") -> Plant:
     """Widgets to enter the plant called `name` in design.py (plant, Ga or Gb). Returns the last good one."""
-    st.html(STYLE)
     way = st.segmented_control(
         f"Enter the {title} as", WAYS, default=WAYS[0], required=True, key=f"{name}_way", persist_state="session"
     )
