@@ -6,7 +6,7 @@ from html import escape
 
 from pages.common.parts.quantities import QUANTITIES
 from simc_core.figures import palette
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.bands import band_of
 
 STYLE = f"""<style>
