@@ -10,9 +10,9 @@ are inside.
     state.change(tau_c=7.5)                               from a button's callback, or before st.rerun()
 """
 
-from time import monotonic
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from time import monotonic
 from typing import Any
 
 import streamlit as st
