@@ -20,9 +20,9 @@ from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.simulation.actuator.actuation import usual_tracking_time
 from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.rise import risen
 from simc_core.simulation.several_delays.network import Network, integral_states, network
 from simc_core.simulation.simulate_nested import NestedResponse, horizon
-from simc_core.simulation.superposition import held
 
 STEPS, MOST_STEPS = 3000, 40_000
 ON_GRID = 1e-6  # of a step
@@ -65,7 +65,7 @@ def limited(
     us = outputs[:, N:].T.copy()
     us[0] = u
     ds = np.zeros((N, len(t)))
-    ds[0] = held(t, disturbance2_time, disturbance2)
+    ds[0] = disturbance2 * risen(t - disturbance2_time, 0.0)
     return NestedResponse(t, np.full(len(t), setpoint), ds, outputs[:, :N].T, us)
 
 

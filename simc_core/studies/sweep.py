@@ -25,6 +25,7 @@ from simc_core.sensitivity.margins import margins_many
 from simc_core.simulation.one_delay.march import march
 from simc_core.simulation.one_delay.unit_responses import Course
 from simc_core.simulation.scenario import instants
+from simc_core.simulation.superposition import ramp_response
 
 MOST_TUNINGS = 10_000
 TOGETHER = 250  # tunings in one march: a bound on memory
@@ -37,7 +38,7 @@ class Sweep:
     """n tunings of one plant. Margins and metrics are nan where the loop is not stable.
 
     tau_c, stable, GM ... overshoot: (n,), as in Margins and Performance; overshoot of the set-point step.
-    y_setpoint, u_setpoint, y_disturbance, u_disturbance: (n, len(t)), unit steps, right-hand limits at jumps.
+    y_setpoint, u_setpoint, y_disturbance, u_disturbance: (n, len(t)), of height 1, right-hand limits at jumps.
     L: (n, len(omega)), complex.
     """
 
@@ -73,6 +74,7 @@ def sweep(
     b: float = 1.0,
     filter_ratio: float = 0.0,
     disturbance_time: float = 0.0,
+    ramps: tuple[float, float] = (0.0, 0.0),
 ) -> Sweep:
     """SIMC tunings of `model` for many tau_c at once, each in the loop round `plant`.
 
@@ -93,7 +95,9 @@ def sweep(
     filter_ratio : float
         tau_F/tau_D.
     disturbance_time : float
-        When the load step begins.
+        When the load begins.
+    ramps : tuple of float
+        Times in which set point and load reach their heights, 0 for steps. Metrics are those of steps in any case.
 
     Returns
     -------
@@ -110,7 +114,7 @@ def sweep(
     loops = [Loop(plant, controller) for controller in controllers]
     found = margins_many(loops)
     stable = [each.stable for each in found]
-    curves, metrics = _curves_and_metrics(plant, controllers, stable, t, disturbance_time)
+    curves, metrics = _curves_and_metrics(plant, controllers, stable, t, disturbance_time, ramps)
     G = plant.factored(1j * omega)
     return Sweep(
         tau_c,
@@ -133,29 +137,38 @@ def dressed(controller: Controller, b: float, filter_ratio: float) -> Controller
 
 
 def time_curves(
-    plant: Plant, controllers: Sequence[Controller], t: np.ndarray, disturbance_time: float = 0.0
+    plant: Plant,
+    controllers: Sequence[Controller],
+    t: np.ndarray,
+    disturbance_time: float = 0.0,
+    ramps: tuple[float, float] = (0.0, 0.0),
 ) -> np.ndarray:
-    """y, u for unit steps of r and of d, (n, 2, 2, len(t)); stable or not."""
+    """y, u for r and d of height 1, steps or ramps, (n, 2, 2, len(t)); stable or not."""
     found = np.zeros((len(controllers), 2, 2, len(t)))
     for some, course in _courses(plant, controllers, [float(t[-1]) or 1.0] * len(controllers)):
-        found[some] = _at(course, t, disturbance_time)
+        found[some] = _at(course, t, disturbance_time, ramps)
     return found
 
 
 def _curves_and_metrics(
-    plant: Plant, controllers: Sequence[Controller], stable: Sequence[bool], t: np.ndarray, disturbance_time: float
+    plant: Plant,
+    controllers: Sequence[Controller],
+    stable: Sequence[bool],
+    t: np.ndarray,
+    disturbance_time: float,
+    ramps: tuple[float, float],
 ) -> tuple[np.ndarray, np.ndarray]:
     """As time_curves, and METRICS, (n, 5); nan where the loop is not stable, or too near its limit to come to rest."""
     n = len(controllers)
     curves, metrics = np.zeros((n, 2, 2, len(t))), np.full((n, len(METRICS)), math.nan)
     ends = [None if each else float(t[-1]) or 1.0 for each in stable]
     for some, course in _courses(plant, controllers, ends):
-        curves[some] = _at(course, t, disturbance_time)
+        curves[some] = _at(course, t, disturbance_time, ramps)
         rest, k = course.at_rest, len(some)
         reached = course.begin[course.first[1:] - 1] + course.length[course.first[1:] - 1]
         short = some[~rest & (reached < t[-1])]  # too near its limit to come to rest, and not far enough
         if short.size and ends[short[0]] is None:
-            curves[short] = time_curves(plant, [controllers[i] for i in short], t, disturbance_time)
+            curves[short] = time_curves(plant, [controllers[i] for i in short], t, disturbance_time, ramps)
         if rest.any():
             found = measures(both_steps(course), with_times=False)
             columns = (found.IAE[:k], found.IAE[k:], found.TV[:k], found.TV[k:], found.overshoot[:k])
@@ -177,10 +190,14 @@ def _courses(
             yield np.array(some), march(plant, [forms[i] for i in some], end)
 
 
-def _at(course: Course, t: np.ndarray, disturbance_time: float) -> np.ndarray:
+def _at(course: Course, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:
     values = course(t)
     if disturbance_time:
         values[:, :, 1] = course(t - disturbance_time)[:, :, 1]
+    for source, (ramp, start) in enumerate(zip(ramps, (0.0, disturbance_time), strict=True)):
+        if ramp:
+            for i in range(len(values)):
+                values[i, :, source] = ramp_response(course.pieces(i), ramp, t - start)[:, :, source].T
     return values
 
 
