@@ -13,7 +13,7 @@ from fractions import Fraction
 
 from simc_core.errors import InvalidParameter, ParseError
 from simc_core.numbers.refusal import quoted
-from simc_core.plants.parse_values import Value, inverse, number_of, plant_of, polynomial, times
+from simc_core.plants.parse_values import Value, degree, inverse, number_of, plant_of, polynomial, times
 from simc_core.plants.pasted.calls import coefficients, read_call, with_numbers
 from simc_core.plants.pasted.clutter import without_clutter
 from simc_core.plants.pasted.grammar import Reader
@@ -22,7 +22,9 @@ from simc_core.plants.pasted.statements import Statement, statements
 from simc_core.plants.plant import Plant
 
 LONGEST_TEXT = 2000
-WITH_UNIT = re.compile(r"(?P<number>[-+]?[\d.,]+(?:[eE][-+]?\d+)?) *(?:[%°]?[^\W\d_]+|%)(?: */ *(?:[%°]?[^\W\d_]+|%))?")
+WITH_UNIT = re.compile(
+    r"(?P<number>[-+]?[\d.,]*\d(?:[eE][-+]?\d+)?) *(?:[%°]?[^\W\d_]+|%)(?: */ *(?:[%°]?[^\W\d_]+|%))?"
+)
 LIST = re.compile(r"\[[^\[\]]*\]['.]*|(?:\w+\.)?(?:array|conv|convolve|polymul)\s*\(.*\)", re.DOTALL)
 EXAMPLE = "for instance exp(-3s)/((6s+1)(4s+1))"
 
@@ -75,6 +77,10 @@ def _plant(text: str) -> Plant:
             "Write e^{-3s} for a dead time of 3",
             text,
             value.at,
+        )
+    if not value.den and degree(value):
+        raise ParseError(
+            "a denominator is missing: write / between numerator and denominator, as in 2/(10s+1)", text, len(text)
         )
     return plant_of(value)
 

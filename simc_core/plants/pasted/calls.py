@@ -10,9 +10,10 @@ from simc_core.numbers.one import read_exact
 from simc_core.numbers.several import program_list
 from simc_core.plants.parse_values import ONE, S, Value, constant, inverse, is_zero, number_of, polynomial, times
 from simc_core.plants.pasted.grammar import DEEPEST, Reader
-from simc_core.plants.pasted.tokens import Token, bare
+from simc_core.plants.pasted.tokens import HINTS, Token, bare
 
 DELAYS = ("inputdelay", "outputdelay", "iodelay")
+SAMPLING = ("dt", "ts")
 OF_NO_MEANING = ("variable", "timeunit", "name", "inputs", "outputs", "inputname", "outputname")
 NUMERATORS, DENOMINATORS = ("num", "numerator"), ("den", "denominator")
 CONTINUOUS = ("", "0", "0.0", "none", "'c'", '"c"')
@@ -62,6 +63,8 @@ def _value(function: str, written: str, reader: Reader, token: Token, parts: lis
         theta += value.theta
     elif function in ("tf", "zpk") and len(given) == 1 and given[0].strip("'\"") in ("s", "p"):
         return Value((S,))
+    elif function in ("tf", "zpk") and given and given[0].strip("'\"") in ("z", "q"):
+        raise InvalidParameter(HINTS["z"])
     else:
         raise InvalidParameter(
             f"{written}(...) is not understood with these arguments: write numerator and denominator, "
@@ -96,7 +99,7 @@ def _options(written: str, parts: list[tuple[str, int]]) -> tuple[list[str], Fra
         named = re.fullmatch(r"(\w+)\s*[=:]\s*(.*)", word, re.DOTALL)
         key = (named[1] if named else word.strip("'\"")).lower()
         quoted = word[:1] in "'\"" and word[:1] != ""
-        if not named and not (quoted and words and key in (*DELAYS, *OF_NO_MEANING)):
+        if not named and not (quoted and words and key in (*DELAYS, *SAMPLING, *OF_NO_MEANING)):
             given.append(word)
             continue
         value = named[2] if named else words.pop(0)
@@ -106,8 +109,10 @@ def _options(written: str, parts: list[tuple[str, int]]) -> tuple[list[str], Fra
             given.insert(0, value)
         elif key in DENOMINATORS:
             given.append(value)
-        elif key in ("dt", "ts"):
+        elif key in SAMPLING:
             _check_continuous(written, [value])
+        elif key == "variable" and value.strip("'\"") not in ("s", "p"):
+            raise InvalidParameter(f"{written}(...) in {value} is a sampled model: {HINTS['z']}")
         elif key not in OF_NO_MEANING:
             raise InvalidParameter(f"'{key}' in {written}(...) is not known: leave it out")
     return given, theta

@@ -274,7 +274,10 @@ class Reader:
             raise self.fault(f"a number must be below 1e{LARGEST_EXPONENT}, got {token.text[:20]}", token.at)
         following = self.token
         if following.kind == "number" and following.at == token.at + len(token.text):
-            raise self.fault(f"'{quoted(token.text + following.text)}' is not a number", token.at)
+            raise self.fault(
+                f"'{quoted(token.text + following.text)}' is not a number: write one decimal point and no other",
+                token.at,
+            )
         if " " in digits and "+" not in self.text and " " in self.text[token.at : token.at + len(token.text)]:
             # a link whose + was not written %2B has lost all of them: 1 200s may have been 1+200s
             raise self.fault(

@@ -18,7 +18,7 @@ class Token(NamedTuple):
 
 RAISED = SUPERSCRIPTS[:10]
 LETTER = rf"(?:(?![{RAISED}½¼¾ˢᵖ])[^\W\d_])"
-WITH_POINT = r"[1-9]\d{0,2}(?:,\d{3})+\.\d+"
+WITH_POINT = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.|(?:\.\d{3})+,)\d+"
 GROUPED = r"[1-9]\d{0,2}(?:[ ']\d{3})+(?![\d])(?:[.,]\d+)?"
 SIMPLE = r"\d+(?:\.\d*|,\d+)?|[.,]\d+"
 LIST_ITEM = re.compile(rf"[+-]?(?:{SIMPLE})(?:[eE][+-]?\d+)?")
@@ -55,6 +55,10 @@ HINTS = {
     "jω": "write the transfer function in s, not its frequency response",
     "log": "work it out and write a number",
     "feedback": "work out the closed loop first, or enter the plant alone",
+    "poly": "write its factors, as in (s+1)(s+2)",
+    **dict.fromkeys(
+        ("q", "filt", "dlti", "drss", "c2d"), "a sampled model is not read: write the transfer function in s"
+    ),
     "series": "write the two with * between them",
     "parallel": "write the two with + between them",
     "minreal": "leave it out",
@@ -75,7 +79,11 @@ SIGN_HINTS = {
     "°": "leave the unit out",
     ",": "a decimal comma stands between digits; a dead time behind a comma is written theta = 3",
     "=": "enter one transfer function, or give every name before = a value",
-    '"': "leave the quotes out",
+    **dict.fromkeys("\"'", "leave the quotes out"),
+    "@": "leave @(s) out",
+    "±": "enter one value",
+    ":": "write / for a division",
+    **dict.fromkeys("→≈", "write ="),
     "½": "write 0.5 or 1/2",
     "¼": "write 0.25 or 1/4",
     "¾": "write 0.75 or 3/4",
