@@ -2,7 +2,7 @@
 
 from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_cascade
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
-from simc_core.certificate.verdict import Stability, count_unstable, stability, stability_many
+from simc_core.certificate.verdict import NestedStability, Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import (
     FormError,
@@ -14,10 +14,12 @@ from simc_core.errors import (
     RuleEnds,
     SimcError,
 )
-from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
+from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
+from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.metrics.nested_performance import NestedPerformance
-from simc_core.metrics.performance import Performance, StepMetrics, performance
+from simc_core.metrics.performance import Performance, performance
+from simc_core.metrics.step_metrics import StepMetrics
 from simc_core.numbers import read_number, read_numbers
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
@@ -36,8 +38,8 @@ from simc_core.reduction.records import Candidate, Reduction, Share, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
-from simc_core.sensitivity.margins import Margins, crossings, margins, margins_many, margins_of
-from simc_core.sensitivity.nested_margins import NestedStability
+from simc_core.sensitivity.margins import crossings, margins, margins_many
+from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
 from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.studies.sweep import Sweep, sweep

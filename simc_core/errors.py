@@ -9,6 +9,10 @@ class InvalidParameter(SimcError):
     """A number outside its bounds, or fields that do not fit together."""
 
 
+class WrongType(InvalidParameter, TypeError):
+    """Something of another type than the one asked for."""
+
+
 class ParseError(SimcError):
     """Text that is not a transfer function; `position` is the index of the fault in `text`."""
 

@@ -48,6 +48,13 @@ def test_no_imports_inside_functions_and_no_star(path):
     assert not [n for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) and n.names[0].name == "*"]
 
 
+@pytest.mark.parametrize("path", [*CORE, *PAGES], ids=name)
+def test_functions_have_names_and_are_found_by_them(path):
+    """No dispatch through functions named _: who reads `margins(cascade)` finds in `margins` what it does."""
+    assert "functools.singledispatch" not in imported(path)
+    assert not [n for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.FunctionDef) and n.name == "_"]
+
+
 @pytest.mark.parametrize("path", PAGES, ids=name)
 def test_numbers_are_typed_in_one_kind_of_field(path):
     """Streamlit's own number fields drop a decimal comma: parts/number_field.py is for all."""

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from simc_core import checks
-from simc_core.certificate.verdict import Stability, stability
+from simc_core.certificate.verdict import NestedStability, Stability, stability
 from simc_core.controllers.forms import Controller, IController, ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
@@ -21,7 +21,6 @@ from simc_core.plants.plant import Plant
 from simc_core.reduction.half_rule import half_rule
 from simc_core.rules.direct_synthesis import KINDS, direct_synthesis, numerator
 from simc_core.rules.simc import default_tau_c, simc
-from simc_core.sensitivity.nested_margins import NestedStability
 
 SEPARATE = 5.0
 FILTER = 20.0  # tau_c/tau_F of the PID controllers of simc_cascade

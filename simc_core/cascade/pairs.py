@@ -11,7 +11,8 @@ from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_casc
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import performance
 from simc_core.plants.plant import Plant
-from simc_core.sensitivity.margins import Margins, margins
+from simc_core.sensitivity.margins import margins
+from simc_core.sensitivity.margins_of_response import Margins
 
 ROUNDED = "The authors round lambda; the exact Ms moves the settings by up to 1.2 %."
 

@@ -75,9 +75,29 @@ class Steps:
         return change > NOISE * np.maximum.reduceat(size, self.first, axis=-1)[..., self.owner]
 
 
+@dataclass(frozen=True, slots=True)
+class StepMetrics:
+    """For a unit step. Times in the user's unit, from the step on.
+
+    overshoot: of a set-point step, beyond 1 as a fraction; of a load step, beyond 0 on the other side as a fraction of
+    the peak.   peak, peak_time: largest y of a set-point step, largest abs(y) of a load step (with its sign).
+    rise_time: 10 % to 90 %, nan for a load step.   settling_time: within 2 % of the step, of the peak for a load step.
+    """
+
+    IAE: float
+    ISE: float
+    ITAE: float
+    TV: float
+    overshoot: float
+    peak: float
+    peak_time: float
+    rise_time: float
+    settling_time: float
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Measures:
-    """Of n responses, (n,) each; see performance.StepMetrics, which has them in this order."""
+    """Of n responses, (n,) each; see StepMetrics, which has them in this order."""
 
     IAE: np.ndarray
     ISE: np.ndarray
@@ -88,6 +108,13 @@ class Measures:
     peak_time: np.ndarray
     rise_time: np.ndarray
     settling_time: np.ndarray
+
+
+def metrics_of(steps: Steps) -> tuple[StepMetrics, ...]:
+    """All metrics of each response."""
+    found = measures(steps)
+    columns = (getattr(found, name).tolist() for name in StepMetrics.__slots__)
+    return tuple(StepMetrics(*row) for row in zip(*columns, strict=True))
 
 
 def measures(steps: Steps, with_times: bool = True) -> Measures:

@@ -14,8 +14,9 @@ from scipy.optimize import brentq
 
 from simc_core.certificate.verdict import count_unstable
 from simc_core.errors import InvalidParameter
-from simc_core.loops.nested import NestedLoops, closed_inside
-from simc_core.sensitivity.nested_margins import Ms_of
+from simc_core.loops.frequency_response import closed_inside
+from simc_core.loops.nested import NestedLoops
+from simc_core.sensitivity.nested_response import Ms_of
 
 FASTEST, SLOWEST, SPEEDS = 1e-2, 1e2, 65  # in units of the scale
 OMEGAS = 240

@@ -11,6 +11,7 @@ from simc_core.controllers.forms import Controller
 from simc_core.plants.models import FirstOrderDelay, Model
 from simc_core.rules.amigo import amigo
 from simc_core.rules.chien_hrones_reswick import chr_load_0, chr_load_20, chr_setpoint_0, chr_setpoint_20
+from simc_core.rules.cohen_coon import KINDS as COHEN_COON
 from simc_core.rules.cohen_coon import cohen_coon
 from simc_core.rules.desired_model import desired_model
 from simc_core.rules.error_integrals import iae_load, iae_setpoint, itae_load, itae_setpoint
@@ -74,14 +75,17 @@ def _simc(model: Model, kind: str, tau_c: float | None = None) -> Controller:
     return simc(model, tau_c)
 
 
-def _ratio(low: float, high: float) -> Within:
-    """theta/tau1 between two bounds; an integrating process counts as 0."""
+def _ratio(model: Model) -> float:
+    """theta/tau1; an integrating process counts as 0."""
+    return model.theta / model.tau1 if isinstance(model, FirstOrderDelay) and model.tau1 else 0.0
 
-    def within(model: Model, kind: str, knob: float | None) -> bool:
-        ratio = model.theta / model.tau1 if isinstance(model, FirstOrderDelay) and model.tau1 else 0.0
-        return low <= ratio <= high
 
-    return within
+def _fits(model: Model, kind: str, knob: float | None) -> bool:
+    return 0.1 <= _ratio(model) <= 1
+
+
+def _short_delay(model: Model, kind: str, knob: float | None) -> bool:
+    return _ratio(model) < 1
 
 
 def _epsilon(model: Model, kind: str, epsilon: float | None) -> bool:
@@ -94,229 +98,41 @@ def _amigo(model: Model, kind: str, knob: float | None) -> bool:
     return kind == "PI" or not isinstance(model, FirstOrderDelay) or model.theta > 0.3 * (model.theta + model.tau1)
 
 
-_CURVE = "tangent at the steepest point of a step response"
-_FITS = "theta/tau1 from 0.1 to 1"
-_ALL = [
-    Rule("simc", "SIMC", "[SK03]", ("PI", "PID"), "model", "all reduced models", "tau_c", _simc),
-    Rule(
-        "improved_simc",
-        "improved SIMC",
-        "[SG12]",
-        ("PI",),
-        "model",
-        "first order with dead time, integrating",
-        "tau_c",
-        improved_simc,
-    ),
-    Rule("isimc", "iSIMC", "[GS18]", ("PID",), "model", "first order with dead time, integrating", "tau_c", isimc),
-    Rule(
-        "lambda",
-        "Lambda",
-        "paper industry",
-        ("PI",),
-        "model",
-        "first order with dead time, integrating",
-        "lambda_",
-        lambda_tuning,
-    ),
-    Rule(
-        "imc_1986",
-        "IMC 1986",
-        "[RMS86 Table II]",
-        ("PI", "PID"),
-        "model",
-        "epsilon >= 1.7 theta (PI), 0.8 theta (PID), and 0.1 tau1",
-        "epsilon",
-        imc_1986,
-        _epsilon,
-    ),
-    Rule(
-        "imc_1986_improved",
-        "IMC 1986, improved PI",
-        "[RMS86 Table II]",
-        ("PI",),
-        "model",
-        "epsilon >= 1.7 theta",
-        "epsilon",
-        imc_1986_improved,
-        lambda model, kind, epsilon: epsilon is None or epsilon >= PI_EPSILON * model.theta,
-    ),
-    Rule(
-        "lee_1998",
-        "Lee, Park, Lee, Brosilow",
-        "[LPLB98]",
-        ("PID",),
-        "model",
-        "first order with dead time",
-        "lambda_",
-        lee_1998,
-    ),
-    Rule(
-        "desired_model", "desired model", "[V06]", ("PI",), "model", "first order with dead time", "beta", desired_model
-    ),
-    Rule("amigo", "AMIGO", "[AH04]", ("PI", "PID"), "model", "PID: theta/(theta + tau1) > 0.3", None, amigo, _amigo),
-    Rule(
-        "zn_step",
-        "Ziegler-Nichols, step response",
-        "[ZN42]",
-        ("P", "PI", "PID"),
-        "model",
-        f"{_CURVE}; {_FITS}",
-        None,
-        zn_step,
-        _ratio(0.1, 1.0),
-    ),
-    Rule(
-        "zn_ultimate",
-        "Ziegler-Nichols, ultimate point",
-        "[ZN42]",
-        ("P", "PI", "PID"),
-        "ultimate",
-        "a loop with an ultimate gain",
-        None,
-        zn_ultimate,
-    ),
-    Rule(
-        "tyreus_luyben",
-        "Tyreus-Luyben",
-        "[TL92]",
-        ("PI", "PID"),
-        "ultimate",
-        "integrating and lag-dominant processes",
-        None,
-        tyreus_luyben,
-    ),
-    Rule("pessen", "Pessen", "handbooks", ("PID",), "ultimate", "a loop with an ultimate gain", None, pessen),
-    Rule(
-        "some_overshoot",
-        "some overshoot",
-        "handbooks",
-        ("PID",),
-        "ultimate",
-        "a loop with an ultimate gain",
-        None,
-        some_overshoot,
-    ),
-    Rule(
-        "no_overshoot",
-        "no overshoot",
-        "handbooks",
-        ("PID",),
-        "ultimate",
-        "a loop with an ultimate gain",
-        None,
-        no_overshoot,
-    ),
-    Rule(
-        "chr_setpoint_0",
-        "Chien-Hrones-Reswick, set point, 0 %",
-        "[CHR52]",
-        ("P", "PI", "PID"),
-        "model",
-        _CURVE,
-        None,
-        chr_setpoint_0,
-    ),
-    Rule(
-        "chr_setpoint_20",
-        "Chien-Hrones-Reswick, set point, 20 %",
-        "[CHR52]",
-        ("P", "PI", "PID"),
-        "model",
-        _CURVE,
-        None,
-        chr_setpoint_20,
-    ),
-    Rule(
-        "chr_load_0",
-        "Chien-Hrones-Reswick, load, 0 %",
-        "[CHR52]",
-        ("P", "PI", "PID"),
-        "model",
-        _CURVE,
-        None,
-        chr_load_0,
-    ),
-    Rule(
-        "chr_load_20",
-        "Chien-Hrones-Reswick, load, 20 %",
-        "[CHR52]",
-        ("P", "PI", "PID"),
-        "model",
-        _CURVE,
-        None,
-        chr_load_20,
-    ),
-    Rule(
-        "cohen_coon",
-        "Cohen-Coon",
-        "[CC53]",
-        ("P", "PI", "PD", "PID"),
-        "model",
-        "theta/tau1 < 1",
-        None,
-        cohen_coon,
-        _ratio(0.0, 1.0),
-    ),
-    Rule("iae_load", "IAE, load", "[M67]", ("PI", "PID"), "model", _FITS, None, iae_load, _ratio(0.1, 1.0)),
-    Rule("itae_load", "ITAE, load", "[M67]", ("PI", "PID"), "model", _FITS, None, itae_load, _ratio(0.1, 1.0)),
-    Rule(
-        "iae_setpoint", "IAE, set point", "[R69]", ("PI", "PID"), "model", _FITS, None, iae_setpoint, _ratio(0.1, 1.0)
-    ),
-    Rule(
-        "itae_setpoint",
-        "ITAE, set point",
-        "[R69]",
-        ("PI", "PID"),
-        "model",
-        _FITS,
-        None,
-        itae_setpoint,
-        _ratio(0.1, 1.0),
-    ),
-    Rule("kuhn", "Kuhn T-sum", "[K95]", ("PI", "PID"), "plant", "plants that come to rest, many lags", None, kuhn),
-    Rule(
-        "kuhn_fast",
-        "Kuhn T-sum, fast",
-        "[K95]",
-        ("PI", "PID"),
-        "plant",
-        "plants that come to rest, many lags",
-        None,
-        kuhn_fast,
-    ),
-    Rule(
-        "magnitude_optimum",
-        "magnitude optimum",
-        "[KES]",
-        ("PI",),
-        "plant",
-        "plants that come to rest",
-        None,
-        magnitude_optimum,
-    ),
-    Rule(
-        "symmetrical_optimum",
-        "symmetrical optimum",
-        "[KES]",
-        ("PI",),
-        "plant",
-        "one integrator and small lags",
-        None,
-        symmetrical_optimum,
-    ),
-    Rule(
-        "schaedel", "Schaedel PI", "[SCH97]", ("PI",), "plant", "plants that come to rest, real poles", None, schaedel
-    ),
-    Rule(
-        "spectral",
-        "pole cancelling",
-        "textbooks",
-        ("PI", "PID"),
-        "model",
-        "first or second order with dead time",
-        "Ki",
-        spectral,
-    ),
+_PI, _PID, _PI_PID, _P_PI_PID = ("PI",), ("PID",), ("PI", "PID"), ("P", "PI", "PID")
+_LAG, _LAG_OR_INTEGRATOR = "first order with dead time", "first order with dead time, integrating"
+_CURVE, _FITS = "tangent at the steepest point of a step response", "theta/tau1 from 0.1 to 1"
+_LIMIT, _REST = "a loop with an ultimate gain", "plants that come to rest"
+_CHR, _EPS = "Chien-Hrones-Reswick", "epsilon >= 1.7 theta and 0.1 tau1"
+_TABLE = [
+    Rule("simc", "SIMC", "[SK03]", _PI_PID, "model", "all reduced models", "tau_c", _simc),
+    Rule("improved_simc", "improved SIMC", "[SG12]", _PI, "model", _LAG_OR_INTEGRATOR, "tau_c", improved_simc),
+    Rule("isimc", "iSIMC", "[GS18]", _PID, "model", _LAG_OR_INTEGRATOR, "tau_c", isimc),
+    Rule("lambda", "Lambda", "paper industry", _PI, "model", _LAG_OR_INTEGRATOR, "lambda_", lambda_tuning),
+    Rule("imc_1986", "IMC 1986", "[RMS86]", _PI_PID, "model", f"{_EPS}; PID: 0.8 theta", "epsilon", imc_1986, _epsilon),
+    Rule("imc_1986_improved", "IMC improved PI", "[RMS86]", _PI, "model", _EPS, "epsilon", imc_1986_improved, _epsilon),
+    Rule("lee_1998", "Lee, Park, Lee, Brosilow", "[LPLB98]", _PID, "model", _LAG, "lambda_", lee_1998),
+    Rule("desired_model", "desired model", "[V06]", _PI, "model", _LAG, "beta", desired_model),
+    Rule("amigo", "AMIGO", "[AH04]", _PI_PID, "model", "PID: theta/(theta + tau1) > 0.3", None, amigo, _amigo),
+    Rule("zn_step", "Ziegler-Nichols, step", "[ZN42]", _P_PI_PID, "model", f"{_CURVE}; {_FITS}", None, zn_step, _fits),
+    Rule("zn_ultimate", "Ziegler-Nichols, ultimate", "[ZN42]", _P_PI_PID, "ultimate", _LIMIT, None, zn_ultimate),
+    Rule("tyreus_luyben", "Tyreus-Luyben", "[TL92]", _PI_PID, "ultimate", "integrating, slow", None, tyreus_luyben),
+    Rule("pessen", "Pessen", "handbooks", _PID, "ultimate", _LIMIT, None, pessen),
+    Rule("some_overshoot", "some overshoot", "handbooks", _PID, "ultimate", _LIMIT, None, some_overshoot),
+    Rule("no_overshoot", "no overshoot", "handbooks", _PID, "ultimate", _LIMIT, None, no_overshoot),
+    Rule("chr_setpoint_0", f"{_CHR}, set point, 0 %", "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_setpoint_0),
+    Rule("chr_setpoint_20", f"{_CHR}, set point, 20 %", "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_setpoint_20),
+    Rule("chr_load_0", f"{_CHR}, load, 0 %", "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_load_0),
+    Rule("chr_load_20", f"{_CHR}, load, 20 %", "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_load_20),
+    Rule("cohen_coon", "Cohen-Coon", "[CC53]", COHEN_COON, "model", "theta/tau1 < 1", None, cohen_coon, _short_delay),
+    Rule("iae_load", "IAE, load", "[M67]", _PI_PID, "model", _FITS, None, iae_load, _fits),
+    Rule("itae_load", "ITAE, load", "[M67]", _PI_PID, "model", _FITS, None, itae_load, _fits),
+    Rule("iae_setpoint", "IAE, set point", "[R69]", _PI_PID, "model", _FITS, None, iae_setpoint, _fits),
+    Rule("itae_setpoint", "ITAE, set point", "[R69]", _PI_PID, "model", _FITS, None, itae_setpoint, _fits),
+    Rule("kuhn", "Kuhn T-sum", "[K95]", _PI_PID, "plant", f"{_REST}, many lags", None, kuhn),
+    Rule("kuhn_fast", "Kuhn T-sum, fast", "[K95]", _PI_PID, "plant", f"{_REST}, many lags", None, kuhn_fast),
+    Rule("magnitude_optimum", "magnitude optimum", "[KES]", _PI, "plant", _REST, None, magnitude_optimum),
+    Rule("symmetrical_optimum", "symmetrical optimum", "[KES]", _PI, "plant", "integrating", None, symmetrical_optimum),
+    Rule("schaedel", "Schaedel PI", "[SCH97]", _PI, "plant", f"{_REST}, real poles", None, schaedel),
+    Rule("spectral", "pole cancelling", "textbooks", _PI_PID, "model", "first or second order", "Ki", spectral),
 ]
-RULES: Mapping[str, Rule] = MappingProxyType({rule.key: rule for rule in _ALL})
+RULES: Mapping[str, Rule] = MappingProxyType({rule.key: rule for rule in _TABLE})

@@ -6,13 +6,12 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.errors import InvalidParameter
-from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.loops.nested import NestedLoops
 from simc_core.simulation.collocation.elements import P
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import round_up
 from simc_core.simulation.scenario import Scenario
 from simc_core.simulation.several_delays.stepper import steps_of
-from simc_core.simulation.simulate import simulate
 from simc_core.simulation.superposition import superposed
 
 SETTLED = 0.01  # of the largest value; where a default horizon ends
@@ -66,14 +65,8 @@ class NestedResponse:
         return self.ds[0]
 
 
-@simulate.register
-def _(loop: CascadeLoop, scenario: Scenario | None = None) -> NestedResponse:
-    return simulate(loop.nested, scenario)
-
-
-@simulate.register
-def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
-    scenario = scenario or Scenario()
+def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
+    """simulate of nested loops. Raises InvalidParameter."""
     if not scenario.actuation.linear:
         raise InvalidParameter(
             "u_min, u_max, noise and h must be left out for nested loops, whose limits are in simulation/windup.py, "

@@ -14,7 +14,8 @@ import numpy as np
 from simc_core import checks
 from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import InvalidParameter
-from simc_core.loops.loop import Loop, at_frequencies
+from simc_core.loops.frequency_response import at_frequencies
+from simc_core.loops.loop import Loop
 from simc_core.metrics.performance import both_steps
 from simc_core.metrics.step_metrics import measures
 from simc_core.plants.models import Model

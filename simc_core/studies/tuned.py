@@ -13,7 +13,8 @@ from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Reduction
 from simc_core.rules.simc import A_THETA_LIMIT, simc
 from simc_core.rules.speed import tau_c_in_use
-from simc_core.sensitivity.margins import Margins, margins
+from simc_core.sensitivity.margins import margins
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.sweep import dressed
 
 

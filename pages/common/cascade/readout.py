@@ -10,7 +10,7 @@ from pages.common.parts.symbols import symbols
 from pages.common.studies.cascade import CascadeStudy, speed_symbol, verdict
 from simc_core.cascade.design import SEPARATE
 from simc_core.notation import number
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 
 STEPS = ("IAE_setpoint", "IAE_d1", "IAE_d2")
 

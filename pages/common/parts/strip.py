@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from html import escape
 
 from pages.common.parts.quantities import QUANTITIES
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.bands import band_of
 
 

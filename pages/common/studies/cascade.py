@@ -8,16 +8,16 @@ from pages.common.session.design import Cascade
 from simc_core.cascade.design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
 from simc_core.cascade.pairs import PairRow
 from simc_core.cascade.verdict import CascadeVerdict, cascade_verdict
-from simc_core.certificate.verdict import stability
+from simc_core.certificate.verdict import NestedStability, stability
 from simc_core.controllers.forms import IController
 from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid
-from simc_core.loops.loop import FrequencyResponse, frequency_response
+from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.nested import CascadeLoop
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import performance
-from simc_core.sensitivity.margins import Margins, margins
-from simc_core.sensitivity.nested_margins import NestedStability
+from simc_core.sensitivity.margins import margins
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import NestedResponse, Scenario, simulate
 
 USUAL_MS = 2.0  # what direct synthesis aims at where nothing is asked for
