@@ -15,10 +15,10 @@ SOURCES = {
     "Transactions of the ASME 74 (1952) 175-185.",
     "GS18": "C. Grimholt and S. Skogestad: Optimal PI and PID control of first-order plus delay processes and "
     "evaluation of the original and improved SIMC rules. Journal of Process Control 70 (2018) 36-46.",
+    "K54": "C. Kessler: Ueber die Vorausberechnung optimal abgestimmter Regelkreise (magnitude optimum), "
+    "Regelungstechnik 2 (1954) and 3 (1955); Das symmetrische Optimum, Regelungstechnik 6 (1958).",
     "K95": "U. Kuhn: Eine praxisnahe Einstellregel fuer PID-Regler: die T-Summen-Regel. Automatisierungstechnische "
     "Praxis 37 (1995) no. 5, 10-16.",
-    "KES": "C. Kessler: Ueber die Vorausberechnung optimal abgestimmter Regelkreise (magnitude optimum), "
-    "Regelungstechnik 2 (1954) and 3 (1955); Das symmetrische Optimum, Regelungstechnik 6 (1958).",
     "LPLB98": "Y. Lee, S. Park, M. Lee and C. Brosilow: PID controller tuning for desired closed-loop responses for "
     "SI/SO systems. AIChE Journal 44 (1998) 106-115.",
     "M67": "P. W. Murrill: Automatic Control of Processes. International Textbook Company, 1967.",

@@ -130,8 +130,8 @@ _TABLE = [
     Rule("itae_setpoint", "ITAE, set point", "[R69]", _PI_PID, "model", _FITS, None, itae_setpoint, _fits),
     Rule("kuhn", "Kuhn T-sum", "[K95]", _PI_PID, "plant", f"{_REST}, many lags", None, kuhn),
     Rule("kuhn_fast", "Kuhn T-sum, fast", "[K95]", _PI_PID, "plant", f"{_REST}, many lags", None, kuhn_fast),
-    Rule("magnitude_optimum", "magnitude optimum", "[KES]", _PI, "plant", _REST, None, magnitude_optimum),
-    Rule("symmetrical_optimum", "symmetrical optimum", "[KES]", _PI, "plant", "integrating", None, symmetrical_optimum),
+    Rule("magnitude_optimum", "magnitude optimum", "[K54]", _PI, "plant", _REST, None, magnitude_optimum),
+    Rule("symmetrical_optimum", "symmetrical optimum", "[K54]", _PI, "plant", "integrating", None, symmetrical_optimum),
     Rule("schaedel", "Schaedel PI", "[SCH97]", _PI, "plant", f"{_REST}, real poles", None, schaedel),
     Rule("spectral", "pole cancelling", "textbooks", _PI_PID, "model", "first or second order", "Ki", spectral),
 ]

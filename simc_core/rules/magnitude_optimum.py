@@ -1,7 +1,7 @@
 """Rules that make |T(j omega)| flat at omega = 0. PI in ideal form.
 
-    magnitude optimum [KES]     G = A0 - A1 s + A2 s^2 - A3 s^3 ...    Kc = A3/(2 (A1 A2 - A0 A3))    tau_I = A3/A2
-    symmetrical optimum [KES]   G = k'/(s (tau s + 1))                 Kc = 1/(2 k' tau)              tau_I = 4 tau
+    magnitude optimum [K54]     G = A0 - A1 s + A2 s^2 - A3 s^3 ...    Kc = A3/(2 (A1 A2 - A0 A3))    tau_I = A3/A2
+    symmetrical optimum [K54]   G = k'/(s (tau s + 1))                 Kc = 1/(2 k' tau)              tau_I = 4 tau
     Schaedel PI [SCH97]         1/G = (1 + T1 s + T2^2 s^2 ...)/k      Kc = TN/(2 k (T1 - TN))        tau_I = TN
                                 TN = T1 - T2^2/T1
 
@@ -17,7 +17,7 @@ from simc_core.rules.self_regulating import self_regulating
 
 
 def magnitude_optimum(plant: Plant, kind: str = "PI") -> IdealPid:
-    """The first two derivatives of |T|^2 with respect to omega^2 vanish at 0. For self-regulating plants. [KES]"""
+    """The first two derivatives of |T|^2 with respect to omega^2 vanish at 0. For self-regulating plants. [K54]"""
     rule = "magnitude optimum"
     kind_of(kind, ("PI",), rule)
     A = taylor(self_regulating(plant, rule), 4) * (1, -1, 1, -1) / plant.k
@@ -27,7 +27,7 @@ def magnitude_optimum(plant: Plant, kind: str = "PI") -> IdealPid:
 
 
 def symmetrical_optimum(plant: Plant, kind: str = "PI") -> IdealPid:
-    """tau is the sum of all small times: lags and dead time less zeros. For plants with one integrator. [KES]"""
+    """tau is the sum of all small times: lags and dead time less zeros. For plants with one integrator. [K54]"""
     rule = "symmetrical optimum"
     kind_of(kind, ("PI",), rule)
     if plant.integrators != 1:
