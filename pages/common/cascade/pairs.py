@@ -22,7 +22,7 @@ def pairs_view() -> None:
         "All pairs of [PSB], designed and judged now on the exact cascade. In brackets the printed number and how far "
         "ours is from it; without brackets, nothing is printed that we could compare with."
     )
-    found = _as_they_come(st.empty())
+    found = _as_they_come()
     st.markdown("\n".join(f"- **{names}**: {symbols(note)}" for note, names in notes(found).items()))
     st.markdown("**Settings**, parallel form $k + k_i/s + k_d s$")
     st.dataframe([settings(each) for each in found], hide_index=True, width="stretch", height="content", key="settings")
@@ -32,24 +32,24 @@ def pairs_view() -> None:
     )
 
 
-def _as_they_come(place: DeltaGenerator) -> tuple[Judged, ...]:
-    """All rows; while they are made, the table shows those that are there, and how many are to come."""
+def _as_they_come() -> tuple[Judged, ...]:
+    """All rows; while they are made, the table shows those that are there, and a bar how many are to come."""
+    bar, table = st.empty(), st.empty()
     found: list[Judged] = []
     shown = monotonic()
     for row in ROWS:
         found.append(judged(row))
         if monotonic() - shown > REDRAWN and len(found) < len(ROWS):
-            with place.container():
-                st.progress(len(found) / len(ROWS), f"{len(found)} of {len(ROWS)} pairs designed and judged")
-                _peaks(found)
+            bar.progress(len(found) / len(ROWS), f"{len(found)} of {len(ROWS)} pairs designed and judged")
+            _peaks(table, found)
             shown = monotonic()
-    with place.container():
-        _peaks(found)
+    bar.empty()
+    _peaks(table, found)
     return tuple(found)
 
 
-def _peaks(found: Sequence[Judged]) -> None:
-    st.dataframe([indices(each) for each in found], hide_index=True, width="stretch", height="content")
+def _peaks(place: DeltaGenerator, found: Sequence[Judged]) -> None:
+    place.dataframe([indices(each) for each in found], hide_index=True, width="stretch", height="content")
 
 
 def notes(found: tuple[Judged, ...]) -> dict[str, str]:
