@@ -4,7 +4,16 @@ from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_casc
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.certificate.verdict import NestedStability, Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
-from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStable, ParseError, RuleEnds, SimcError
+from simc_core.errors import (
+    FormError,
+    InvalidParameter,
+    NotReducible,
+    NotStable,
+    ParseError,
+    RuleEnds,
+    SimcError,
+    WrongType,
+)
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
@@ -29,5 +38,5 @@ from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
-from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
+from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.studies.sweep import Sweep, sweep

@@ -22,8 +22,9 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
-from simc_core.controllers.forms import ParallelPid
+from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
+from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.simulation.collocation.elements import P
@@ -36,7 +37,6 @@ SMOOTH = 7  # order of derivative from which a jump is left to the tails
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 MOST_TO_END, MOST_TO_REST = 12_000, 6_000  # elements of one tuning, 30 us each
 LARGEST = 1e150  # an unstable response is cut off here
-WELL_POSED = 1e-12
 
 
 def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Course:
@@ -67,13 +67,11 @@ def final_values(plant: Plant, form: ParallelPid) -> np.ndarray:
 def _check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
     for form in forms:
         if form.Kd and form.c and not form.tau_F:
-            raise InvalidParameter(
-                f"tau_F must be > 0 where the derivative acts on the set point (c > 0), got {form.tau_F:g}"
-            )
+            raise InvalidParameter(needs_filter("on a set-point step (c > 0)"))
         if not plant.theta:
             L = plant.factored * form.factored
-            if L.relative_degree == 0 and abs(1 + FactoredResponse(L).at_infinity.gain) < WELL_POSED:
-                raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: u is not defined")
+            if L.relative_degree == 0:
+                require_well_posed(1 + FactoredResponse(L).at_infinity.gain)
 
 
 class _TooCoarse(Exception):
