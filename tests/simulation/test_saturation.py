@@ -224,7 +224,8 @@ def test_both_limits_at_jumps_without_instants_and_the_right_one_with_them():
     assert found.u[twice + 1] == pytest.approx([0.4, 0.3, 0.35, 0.325, 0.3375])
     assert found.r[0] == 0.0
     assert found.r[1] == 1.0
-    at = simulate(loop, Scenario(1.0, 0.0, t=np.array([0.0, 1.0, 1.5, 2.0]), u_max=0.4))
+    instants = np.array([0.0, 1.0, 1.5, 2.0])
+    at = simulate(loop, Scenario(1.0, 0.0, t=instants, actuation=Actuation(u_max=0.4)))
     assert at.u == pytest.approx([0.4, 0.3, 0.3, 0.35])
     sampled = simulate(loop, Scenario(1.0, 0.0, t_end=4.0, points=9, actuation=Actuation(h=0.25)))
     assert np.all(np.diff(sampled.u)[np.diff(sampled.t) > 0] == 0)  # between jumps u is held
