@@ -13,6 +13,7 @@ from simc_core.errors import (
     ParseError,
     RuleEnds,
     SimcError,
+    WrongType,
 )
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
@@ -41,6 +42,6 @@ from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
-from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
+from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.studies.sweep import Sweep, sweep
 from simc_core.studies.tune import tune

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from simc_core import checks
 from simc_core.certificate.verdict import NestedStability, Stability, stability
-from simc_core.controllers.forms import Controller, IController, ParallelPid
+from simc_core.controllers.forms import Controller, ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.optimal.speed_for_peak import fastest
@@ -107,7 +107,7 @@ def simc_cascade(
     effective = replace(primary, theta=primary.theta + model.theta, lags=(*primary.lags, tau_cb))
     reduced = half_rule(effective, _order("outer", outer)).model
     Ca, tau_ca = _tuned(reduced, tau_c_outer, "outer", Ms_outer, lambda C: NestedLoops((secondary, primary), (Cb, C)))
-    Ca = Ca if isinstance(Ca, IController) else replace(Ca, b=b)
+    Ca = Ca.with_weight(b)
     notes = []
     if tau_ca < SEPARATE * tau_cb:
         notes.append(
@@ -166,7 +166,7 @@ def synthesis_cascade(
     def inside(lambda_: float) -> NestedLoops:
         return NestedLoops((secondary,), (direct_synthesis(secondary, lambda_, inner, N_inner),))
 
-    lambda_b = _speed("lambda_inner", lambda_inner, "Ms_inner", Ms_inner, inside, _time_of(secondary))
+    lambda_b = _speed("lambda_inner", lambda_inner, "Ms_inner", Ms_inner, inside, secondary.total_time or 1.0)
     closed = inside(lambda_b)
     Cb = closed.controllers[0]
     tau_F = float(numerator(secondary, lambda_b)[1]) if N_outer is None and secondary.order else None
@@ -177,7 +177,12 @@ def synthesis_cascade(
         return NestedLoops((secondary, primary), (Cb, Ca))
 
     lambda_a = _speed(
-        "lambda_outer", lambda_outer, "Ms_outer", Ms_outer, outside, _time_of(primary) + secondary.theta + lambda_b
+        "lambda_outer",
+        lambda_outer,
+        "Ms_outer",
+        Ms_outer,
+        outside,
+        (primary.total_time or 1.0) + secondary.theta + lambda_b,
     )
     Ca = outside(lambda_a).controllers[1]
     loop = CascadeLoop(primary, secondary, Ca, Cb)
@@ -216,7 +221,7 @@ def _tuned(
 
 def _filtered(controller: Controller, tau_c: float) -> Controller:
     """With the filter of a PID."""
-    if isinstance(controller, IController) or controller.tau_D == 0:
+    if "tau_F" not in controller.OPTIONAL or controller.tau_D == 0:
         return controller
     return replace(controller, tau_F=tau_c / FILTER)
 
@@ -227,10 +232,6 @@ def _speed(name: str, given: float | None, Ms_name: str, Ms: float | None, at, s
         return checks.positive_time(name, given)
     Ms = checks.real(Ms_name, Ms, LOWEST_MS, HIGHEST_MS)
     return fastest(at, Ms, scale, name, Ms_name)
-
-
-def _time_of(block: Plant) -> float:
-    return block.theta + sum(map(abs, block.lags)) + sum(tau for tau, _ in block.lag_pairs) or 1.0
 
 
 def _on_filter(loop: str, kind: str, controller: ParallelPid, N: float | None) -> list[str]:
@@ -248,12 +249,11 @@ def _on_filter(loop: str, kind: str, controller: ParallelPid, N: float | None) -
 
 
 def _on_dead_time(name: str, block: Plant, theta: float) -> list[str]:
-    slowest = max([*map(abs, block.lags), *(tau for tau, _ in block.lag_pairs)], default=0.0)
-    if block.integrators or theta <= DOMINANT * slowest:
+    if block.integrators or theta <= DOMINANT * block.slowest:
         return []
     return [
-        f"theta = {theta:.4g} in the loop of the {name} block should be <= {slowest:.4g}, its slowest time constant: "
-        "direct synthesis is not meant for dominating dead time, compare with SIMC"
+        f"theta = {theta:.4g} in the loop of the {name} block should be <= {block.slowest:.4g}, its slowest time "
+        "constant: direct synthesis is not meant for dominating dead time, compare with SIMC"
     ]
 
 
@@ -290,5 +290,5 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
     def at(lambda_: float) -> NestedLoops:
         return NestedLoops((product,), (direct_synthesis(product, lambda_, kind),))
 
-    lambda_ = fastest(at, Ms, _time_of(product), "lambda", "Ms")
+    lambda_ = fastest(at, Ms, product.total_time or 1.0, "lambda", "Ms")
     return CascadeLoop(primary, secondary, at(lambda_).controllers[0], None)

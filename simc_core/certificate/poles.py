@@ -19,6 +19,7 @@ import numpy as np
 from simc_core.algebra.factors import Factored, factors, without_common
 from simc_core.algebra.state_space import chain
 from simc_core.loops.loop import Loop
+from simc_core.loops.well_posed import is_well_posed
 
 FEWEST_NODES, MOST_NODES = 20, 120
 NODES_PER_RADIAN = 1.0  # beyond FEWEST_NODES, for theta omega of the fastest oscillation worth seeing
@@ -27,7 +28,6 @@ CHAIN_STEPS = 3
 FAR_LEFT = -(2.0 ** np.arange(0.0, 6.0, 0.25))  # theta s of real poles that the discretisation has not resolved
 SETTLED = 1e-12
 SAME = 1e-14  # relative, of coefficients that were the same before they were rounded
-ILL_POSED = 1e-12  # |1 + L(inf)| without dead time
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ def rightmost(L: Factored) -> np.ndarray:
     """
     unit = L.theta or 1.0
     A, B, C, D = chain(L, unit)
-    if L.theta == 0 and abs(1 + D) < ILL_POSED:
+    if L.theta == 0 and not is_well_posed(1 + D):
         return np.zeros(0, dtype=complex)  # no loop at all
     if L.theta == 0:
         generator = A - np.outer(B, C) / (1 + D)

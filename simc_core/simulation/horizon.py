@@ -31,8 +31,7 @@ def times(loop: Loop, scenario: Scenario) -> tuple[float, float]:
 
 def settling_horizon(loop: Loop) -> float:
     """A round time in which the slowest closed-loop mode settles to 1 %; of an unstable loop, shows what grows."""
-    scale = loop.plant.theta + sum(map(abs, loop.plant.lags)) + sum(tau for tau, _ in loop.plant.lag_pairs)
-    form = loop.controller.to_parallel()
+    scale, form = loop.plant.total_time, loop.controller.to_parallel()
     scale += abs(form.Kp / form.Ki) if form.Ki else 0.0
     scale = scale or 1.0
     try:

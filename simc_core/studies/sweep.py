@@ -7,12 +7,12 @@ in frequency (one grid, one search, one certificate for all).
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
 from simc_core.loops.frequency_response import at_frequencies
 from simc_core.loops.loop import Loop
@@ -116,7 +116,7 @@ def sweep(
         raise InvalidParameter(
             f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, got {values}"
         )
-    controllers = tuple(dressed(simc(model, each), b, filter_ratio) for each in tau_c.tolist())
+    controllers = tuple(simc(model, each).with_filter(filter_ratio).with_weight(b) for each in tau_c.tolist())
     loops = [Loop(plant, controller) for controller in controllers]
     found = margins_many(loops)
     stable = [each.stable for each in found]
@@ -133,13 +133,6 @@ def sweep(
         *(np.array([getattr(each, name) for each in found]) for name in MARGINS),
         *metrics.T,
     )
-
-
-def dressed(controller: Controller, b: float, filter_ratio: float) -> Controller:
-    """`controller` with set-point weight b and tau_F = filter_ratio tau_D; pure I action takes neither."""
-    if isinstance(controller, IController):
-        return controller
-    return replace(controller, b=b, tau_F=filter_ratio * controller.tau_D)
 
 
 def time_curves(

@@ -3,12 +3,11 @@
 Pure Python, no streamlit. links.py writes a Design as an address, project.py as a file, state.py keeps one a session.
 """
 
-import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
 from pages.common.session.sheet import Sheet, ratio
-from simc_core import Plant, Scenario, checks
+from simc_core import Actuation, Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
@@ -66,9 +65,13 @@ class Tuning:
         return None if self.tau_c is not None else times_theta(self.speed)
 
 
+ACTUATION = tuple(each.name for each in fields(Actuation))
+IN_LINKS = {"tracking_time": "T_t", "h": "sampling"}  # h alone is taken, by Tuning
+
+
 @dataclass(frozen=True, slots=True)
 class Actuator:
-    """How the loop is built, and what is asked of it there: see simc_core Actuation; None for no limit.
+    """How the loop is built, and what is asked of it there: the fields of Actuation, None for no limit.
 
     tracking_time: None for the default.   h: sampling period of the controller as built; Tuning.h is the one that the
     half rule allows for.   setpoint, disturbance: heights of the steps, which matter where u has limits.
@@ -91,24 +94,16 @@ class Actuator:
         if self.tracking_time is not None:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
         scenario = self.scenario  # which checks what it is made of
-        for name in ("noise", "seed", "h", "setpoint", "disturbance"):
+        for name in ("setpoint", "disturbance"):
             put(self, name, getattr(scenario, name))
+        for name in ("noise", "seed", "h"):
+            put(self, name, getattr(scenario.actuation, name))
 
     @property
     def scenario(self) -> Scenario:
         """The steps with all of this."""
-        u_min = -math.inf if self.u_min is None else self.u_min
-        u_max = math.inf if self.u_max is None else self.u_max
-        return Scenario(
-            self.setpoint,
-            self.disturbance,
-            u_min=u_min,
-            u_max=u_max,
-            tracking_time=self.tracking_time,
-            noise=self.noise,
-            seed=self.seed,
-            h=self.h,
-        )
+        given = {name: getattr(self, name) for name in ACTUATION if getattr(self, name) is not None}
+        return Scenario(self.setpoint, self.disturbance, actuation=Actuation(**given))
 
     @property
     def on(self) -> bool:
@@ -213,9 +208,7 @@ PLACES: dict[str, tuple[str, str]] = {
     **{f"{name}_{loop}": ("cascade", f"{name}_{loop}") for name in ("tau_c", "Ms", "N") for loop in ("inner", "outer")},
     "b_outer": ("cascade", "b"),
     "filter_outer": ("cascade", "filter_outer"),
-    **{name: ("actuator", name) for name in ("u_min", "u_max", "noise", "seed")},
-    "T_t": ("actuator", "tracking_time"),
-    "sampling": ("actuator", "h"),
+    **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
     "r": ("actuator", "setpoint"),
     "d": ("actuator", "disturbance"),
 }

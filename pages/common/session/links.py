@@ -146,9 +146,7 @@ def settings_text(controller: Controller | None) -> str:
     if controller is None:
         return ""
     form = next(name for name, kind in FORM_NAMES.items() if isinstance(controller, kind))
-    values = list(controller.settings.values())
-    if not isinstance(controller, IController):
-        values += [controller.tau_F, controller.b, controller.c]
+    values = [getattr(controller, name) for name in (*controller.SETTINGS, *controller.OPTIONAL)]
     return "~".join([form, *map(number_text, values)])
 
 
@@ -158,7 +156,7 @@ def settings_of(text: str) -> Controller:
     if form not in FORM_NAMES:
         raise SimcError(f"settings begin with one of {', '.join(FORM_NAMES)}, got {form[:20]}")
     kind = FORM_NAMES[form]
-    wanted = len(kind.SETTINGS) + (0 if kind is IController else 3)
+    wanted = len(kind.SETTINGS) + len(kind.OPTIONAL)
     if len(values) != wanted:
         raise SimcError(f"settings in {form} form have {wanted} values separated by ~, got {len(values)}")
     return kind(*(_read("settings", value) for value in values))

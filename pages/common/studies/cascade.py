@@ -9,7 +9,6 @@ from simc_core.cascade.design import SEPARATE, CascadeDesign, simc_cascade, sing
 from simc_core.cascade.pairs import PairRow
 from simc_core.cascade.verdict import CascadeVerdict, cascade_verdict
 from simc_core.certificate.verdict import NestedStability, stability
-from simc_core.controllers.forms import IController
 from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
@@ -182,7 +181,7 @@ def speed_symbol(cascade: Cascade) -> str:
 def scale(cascade: Cascade, loop: str) -> float:
     """A time to measure the speed of a loop by: dead times and time constants of its blocks together."""
     blocks = [cascade.secondary] if loop == "inner" else [cascade.primary, cascade.secondary]
-    return sum(b.theta + sum(map(abs, b.lags)) + sum(tau for tau, _ in b.lag_pairs) for b in blocks) or 1.0
+    return sum(block.total_time for block in blocks) or 1.0
 
 
 def _performance(loop: CascadeLoop) -> tuple[NestedPerformance | None, str]:
@@ -198,8 +197,7 @@ def _single(cascade: Cascade) -> tuple[SingleLoop | None, str]:
         loop = single_loop(cascade.primary, cascade.secondary, Ms=cascade.Ms_outer or USUAL_MS)
     except SimcError as error:
         return None, str(error)
-    if not isinstance(loop.outer, IController):
-        loop = replace(loop, outer=replace(loop.outer, b=cascade.b))
+    loop = replace(loop, outer=loop.outer.with_weight(cascade.b))
     judged = margins(loop.outer_loop)
     if not judged.stable:
         return SingleLoop(loop, None, math.nan), "it is not stable"

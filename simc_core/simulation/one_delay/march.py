@@ -23,9 +23,10 @@ from typing import NoReturn
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
-from simc_core.controllers.forms import ParallelPid
+from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
+from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.simulation.collocation.elements import P
@@ -38,7 +39,6 @@ from simc_core.simulation.one_delay.unit_responses import Course, Stretch, cours
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 LARGEST = 1e150  # an unstable response is cut off here
-WELL_POSED = 1e-12
 
 
 def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most_to_rest: int = MOST_TO_REST) -> Course:
@@ -71,13 +71,11 @@ def final_values(plant: Plant, form: ParallelPid) -> np.ndarray:
 def _check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
     for form in forms:
         if form.Kd and form.c and not form.tau_F:
-            raise InvalidParameter(
-                f"tau_F must be > 0 where the derivative acts on the set point (c > 0), got {form.tau_F:g}"
-            )
+            raise InvalidParameter(needs_filter("on a set-point step (c > 0)"))
         if not plant.theta:
             L = plant.factored * form.factored
-            if L.relative_degree == 0 and abs(1 + FactoredResponse(L).at_infinity.gain) < WELL_POSED:
-                raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: u is not defined")
+            if L.relative_degree == 0:
+                require_well_posed(1 + FactoredResponse(L).at_infinity.gain)
 
 
 class _TooCoarse(Exception):
