@@ -9,6 +9,7 @@ from simc_core.errors import (
     InvalidParameter,
     NotReducible,
     NotStable,
+    OutOfDomain,
     ParseError,
     RuleEnds,
     SimcError,
@@ -31,12 +32,16 @@ from simc_core.plants.models import (
 )
 from simc_core.plants.parse import parse_plant
 from simc_core.plants.plant import Plant
+from simc_core.plants.ultimate_point import Ultimate
 from simc_core.read_back import read_back
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Candidate, Reduction, Share, Step
+from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
+from simc_core.sensitivity.ultimate import ultimate
 from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.studies.sweep import Sweep, sweep
+from simc_core.studies.tune import tune

@@ -34,6 +34,10 @@ class NotStable(SimcError):
     """A quantity was asked for that only a stable loop has."""
 
 
+class OutOfDomain(SimcError):
+    """A tuning rule was asked for a model, or a setting of its own, that it is not made for."""
+
+
 class RuleEnds(InvalidParameter):
     """SIMC has no setting for this model; `change` is a change of the design that has one, {} if none is known."""
 

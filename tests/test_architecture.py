@@ -68,3 +68,15 @@ def test_no_number_field_of_the_browser_either():
 
 def test_the_entry_point_only_starts_the_router():
     assert len((ROOT / "app.py").read_text().splitlines()) <= 25
+
+
+def test_lines_of_scripts_are_as_short_as_those_of_python():
+    scripts = [file for file in (ROOT / "pages").rglob("*.js") if "vendor" not in file.parts]
+    assert len(scripts) > 20
+    long = [
+        f"{file.name}:{n}"
+        for file in scripts
+        for n, line in enumerate(file.read_text().split("\n"), 1)
+        if len(line) > 120
+    ]
+    assert not long

@@ -27,6 +27,7 @@ NEWTON_STEPS = 12
 CHAIN_STEPS = 3
 FAR_LEFT = -(2.0 ** np.arange(0.0, 6.0, 0.25))  # theta s of real poles that the discretisation has not resolved
 SETTLED = 1e-12
+SAME = 1e-14  # relative, of coefficients that were the same before they were rounded
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,9 +115,15 @@ def _differentiation(N: int) -> np.ndarray:
 
 
 def _without_common(L: Factored) -> tuple[Factored, np.ndarray]:
-    """L without the factors its numerator and denominator share, and the poles these are."""
-    top, bottom, common = without_common([*map(tuple, L.num.tolist())], [*map(tuple, L.den.tolist())])
+    """L without the factors its numerator and denominator share but for rounding, and the poles these are."""
+    den = L.den.tolist()
+    num = [next((row for row in den if _same(each, row)), each) for each in L.num.tolist()]
+    top, bottom, common = without_common([*map(tuple, num)], [*map(tuple, den)])
     return Factored(L.gain, factors(*top), factors(*bottom), L.theta), Factored(1.0, factors(), factors(*common)).poles
+
+
+def _same(one: list[float], other: list[float]) -> bool:
+    return all(abs(a - b) <= SAME * abs(b) for a, b in zip(one, other, strict=True))
 
 
 def _polished(L: Factored, start: np.ndarray) -> list[complex]:

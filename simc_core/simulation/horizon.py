@@ -25,8 +25,8 @@ def times(loop: Loop, scenario: Scenario) -> tuple[float, float]:
         begins = scenario.t_end / 2 if scenario.disturbance_time is None else scenario.disturbance_time
         return begins, scenario.t_end
     part = settling_horizon(loop)
-    begins = part if scenario.disturbance_time is None else scenario.disturbance_time
-    return begins, begins + part
+    begins = part + scenario.setpoint_ramp if scenario.disturbance_time is None else scenario.disturbance_time
+    return begins, begins + scenario.disturbance_ramp + part
 
 
 def settling_horizon(loop: Loop) -> float:

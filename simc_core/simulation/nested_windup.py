@@ -12,20 +12,17 @@ K_1 is the proportional gain of the inner controller, T as in controllers/tracki
 the linear part exact for signals that run linearly over a step, e by predictor and corrector.
 """
 
-import math
-
 import numpy as np
 
 from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.actuator.one_step import ON_GRID, Linear, whole_steps
+from simc_core.simulation.rise import risen
 from simc_core.simulation.several_delays.network import Network, integral_states, network
 from simc_core.simulation.simulate_nested import NestedResponse, horizon
-from simc_core.simulation.superposition import held
 
 STEPS, MOST_STEPS = 3000, 40_000
-ON_GRID = 1e-6  # of a step
 PROTECTIONS = ("none", "inner", "both")
 
 
@@ -65,7 +62,7 @@ def limited(
     us = outputs[:, N:].T.copy()
     us[0] = u
     ds = np.zeros((N, len(t)))
-    ds[0] = held(t, disturbance2_time, disturbance2)
+    ds[0] = disturbance2 * risen(t - disturbance2_time, 0.0)
     return NestedResponse(t, np.full(len(t), setpoint), ds, outputs[:, :N].T, us)
 
 
@@ -76,7 +73,7 @@ def _step(system: Network, t_end: float) -> float:
     shortest = float(np.min(system.theta))
     if t_end / shortest > MOST_STEPS:
         raise InvalidParameter(f"t_end must be at most {MOST_STEPS} theta = {MOST_STEPS * shortest:g}, got {t_end:g}")
-    return shortest / math.ceil(STEPS * shortest / t_end * (1 - ON_GRID))
+    return shortest / whole_steps(STEPS * shortest / t_end)
 
 
 def _tracking(loops: NestedLoops, n: int, protection: str) -> np.ndarray:

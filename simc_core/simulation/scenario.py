@@ -14,10 +14,12 @@ LINEAR = Actuation()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scenario:
-    """A step of r at t = 0 and a step of d at the plant input at disturbance_time.
+    """A step or ramp of r at t = 0, and one of d at the plant input at disturbance_time.
 
     disturbance2, disturbance2_time: the same at the input of the innermost block of nested loops; others have none.
-    setpoint, disturbance: heights.   disturbance_time, t_end: None for half the horizon, and a horizon in which the
+    setpoint, disturbance: heights.   setpoint_ramp, disturbance_ramp: times in which these are reached, 0 for a step;
+    nested loops have steps only.
+    disturbance_time, t_end: None for half the horizon, and a horizon in which the
     slowest mode of the loop settles to 1 %.   points: instants on the grid; at a jump both limits are added.
     t: explicit increasing instants, returned exactly as given, right-hand limits at jumps.
     actuation: limits, noise and sampling between controller and plant; by default the loop is linear.
@@ -32,11 +34,15 @@ class Scenario:
     disturbance2: float = 1.0
     disturbance2_time: float | None = None
     actuation: Actuation = LINEAR
+    setpoint_ramp: float = 0.0
+    disturbance_ramp: float = 0.0
 
     def __post_init__(self):
         put = object.__setattr__
         for name in ("setpoint", "disturbance", "disturbance2"):
             put(self, name, checks.real(name, getattr(self, name), -checks.LARGEST_GAIN, checks.LARGEST_GAIN))
+        for name in ("setpoint_ramp", "disturbance_ramp"):
+            put(self, name, checks.optional_time(name, getattr(self, name)))
         for name in ("disturbance_time", "disturbance2_time"):
             if getattr(self, name) is not None:
                 put(self, name, checks.optional_time(name, getattr(self, name)))

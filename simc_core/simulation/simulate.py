@@ -15,7 +15,7 @@ from simc_core.simulation.one_delay.march import march
 from simc_core.simulation.one_delay.unit_responses import Course
 from simc_core.simulation.scenario import Scenario, TimeResponse
 from simc_core.simulation.simulate_nested import NestedResponse, simulate_nested
-from simc_core.simulation.superposition import doubled, held, superposed
+from simc_core.simulation.superposition import doubled, superposed
 
 
 def simulate(loop: Loop | CascadeLoop | NestedLoops, scenario: Scenario | None = None) -> TimeResponse | NestedResponse:
@@ -63,11 +63,12 @@ def simulate(loop: Loop | CascadeLoop | NestedLoops, scenario: Scenario | None =
 
 def _single(loop: Loop, scenario: Scenario) -> TimeResponse:
     begins, t_end = times(loop, scenario)
+    ramps = scenario.setpoint_ramp, scenario.disturbance_ramp
     if not scenario.actuation.linear:
-        inputs = Inputs(scenario.setpoint, scenario.disturbance, begins, t_end)
+        inputs = Inputs(scenario.setpoint, scenario.disturbance, begins, t_end, *ramps)
         return on_grid(actuated(loop, scenario.actuation, inputs), inputs, scenario.points, scenario.t)
     heights, starts = (scenario.setpoint, scenario.disturbance), (0.0, begins)
-    t, inputs, outputs = superposed(unit_steps(loop, t_end), heights, starts, t_end, scenario)
+    t, inputs, outputs = superposed(unit_steps(loop, t_end), heights, starts, t_end, scenario, ramps)
     return TimeResponse(t, *inputs, *outputs)
 
 
@@ -96,7 +97,7 @@ def on_grid(course: Stepped, inputs: Inputs, points: int, t: np.ndarray | None =
         jumps = np.unique(np.concatenate([[0.0, begins], course.jumps()]))
         t, left = doubled(np.linspace(0.0, inputs.t_end, points), jumps[jumps <= inputs.t_end])
     y, u = course.at(t)
-    r, d = held(t, 0.0, inputs.setpoint), held(t, begins, inputs.disturbance)
+    r, d = inputs.r(t), inputs.d(t)
     y[left], u[left] = course.before(t[left])
     r[left] *= t[left] > 0
     d[left] *= t[left] > begins

@@ -22,12 +22,14 @@ from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins_many
+from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share
 from simc_core.simulation.one_delay.march import march
 from simc_core.simulation.one_delay.unit_responses import Course
 from simc_core.simulation.scenario import instants
+from simc_core.simulation.superposition import ramp_response
 
 MOST_TUNINGS = 10_000
-TOGETHER = 250  # tunings in one march: a bound on memory
+MOST_VALUES = 20_000_000  # numbers in the arrays of a sweep: 160 MB
 MARGINS = ("GM", "GM_lower", "PM_deg", "delay_margin", "Ms", "Mt")
 METRICS = ("IAE_setpoint", "IAE_disturbance", "TV_setpoint", "TV_disturbance", "overshoot")
 
@@ -37,7 +39,7 @@ class Sweep:
     """n tunings of one plant. Margins and metrics are nan where the loop is not stable.
 
     tau_c, stable, GM ... overshoot: (n,), as in Margins and Performance; overshoot of the set-point step.
-    y_setpoint, u_setpoint, y_disturbance, u_disturbance: (n, len(t)), unit steps, right-hand limits at jumps.
+    y_setpoint, u_setpoint, y_disturbance, u_disturbance: (n, len(t)), of height 1, right-hand limits at jumps.
     L: (n, len(omega)), complex.
     """
 
@@ -73,6 +75,7 @@ def sweep(
     b: float = 1.0,
     filter_ratio: float = 0.0,
     disturbance_time: float = 0.0,
+    ramps: tuple[float, float] = (0.0, 0.0),
 ) -> Sweep:
     """SIMC tunings of `model` for many tau_c at once, each in the loop round `plant`.
 
@@ -93,7 +96,9 @@ def sweep(
     filter_ratio : float
         tau_F/tau_D.
     disturbance_time : float
-        When the load step begins.
+        When the load begins.
+    ramps : tuple of float
+        Times in which set point and load reach their heights, 0 for steps. Metrics are those of steps in any case.
 
     Returns
     -------
@@ -106,11 +111,16 @@ def sweep(
         Where `simc` does, and where `simulate` does for one of the loops.
     """
     tau_c, t, omega = _tau_c(tau_c), instants(t), at_frequencies(omega)
+    values = len(tau_c) * (4 * len(t) + 2 * len(omega))
+    if values > MOST_VALUES:
+        raise InvalidParameter(
+            f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, got {values}"
+        )
     controllers = tuple(simc(model, each).with_filter(filter_ratio).with_weight(b) for each in tau_c.tolist())
     loops = [Loop(plant, controller) for controller in controllers]
     found = margins_many(loops)
     stable = [each.stable for each in found]
-    curves, metrics = _curves_and_metrics(plant, controllers, stable, t, disturbance_time)
+    curves, metrics = _curves_and_metrics(plant, controllers, stable, t, disturbance_time, ramps)
     G = plant.factored(1j * omega)
     return Sweep(
         tau_c,
@@ -126,29 +136,38 @@ def sweep(
 
 
 def time_curves(
-    plant: Plant, controllers: Sequence[Controller], t: np.ndarray, disturbance_time: float = 0.0
+    plant: Plant,
+    controllers: Sequence[Controller],
+    t: np.ndarray,
+    disturbance_time: float = 0.0,
+    ramps: tuple[float, float] = (0.0, 0.0),
 ) -> np.ndarray:
-    """y, u for unit steps of r and of d, (n, 2, 2, len(t)); stable or not."""
+    """y, u for r and d of height 1, steps or ramps, (n, 2, 2, len(t)); stable or not."""
     found = np.zeros((len(controllers), 2, 2, len(t)))
     for some, course in _courses(plant, controllers, [float(t[-1]) or 1.0] * len(controllers)):
-        found[some] = _at(course, t, disturbance_time)
+        found[some] = _at(course, t, disturbance_time, ramps)
     return found
 
 
 def _curves_and_metrics(
-    plant: Plant, controllers: Sequence[Controller], stable: Sequence[bool], t: np.ndarray, disturbance_time: float
+    plant: Plant,
+    controllers: Sequence[Controller],
+    stable: Sequence[bool],
+    t: np.ndarray,
+    disturbance_time: float,
+    ramps: tuple[float, float],
 ) -> tuple[np.ndarray, np.ndarray]:
     """As time_curves, and METRICS, (n, 5); nan where the loop is not stable, or too near its limit to come to rest."""
     n = len(controllers)
     curves, metrics = np.zeros((n, 2, 2, len(t))), np.full((n, len(METRICS)), math.nan)
     ends = [None if each else float(t[-1]) or 1.0 for each in stable]
     for some, course in _courses(plant, controllers, ends):
-        curves[some] = _at(course, t, disturbance_time)
+        curves[some] = _at(course, t, disturbance_time, ramps)
         rest, k = course.at_rest, len(some)
         reached = course.begin[course.first[1:] - 1] + course.length[course.first[1:] - 1]
         short = some[~rest & (reached < t[-1])]  # too near its limit to come to rest, and not far enough
         if short.size and ends[short[0]] is None:
-            curves[short] = time_curves(plant, [controllers[i] for i in short], t, disturbance_time)
+            curves[short] = time_curves(plant, [controllers[i] for i in short], t, disturbance_time, ramps)
         if rest.any():
             found = measures(both_steps(course), with_times=False)
             columns = (found.IAE[:k], found.IAE[k:], found.TV[:k], found.TV[k:], found.overshoot[:k])
@@ -161,19 +180,37 @@ def _courses(
 ) -> Iterator[tuple[np.ndarray, Course]]:
     """Tunings that can march together, and their course; ends: None for one that goes to its rest."""
     forms = [controller.to_parallel() for controller in controllers]
-    alike: dict[tuple, list[int]] = defaultdict(list)
+    work, alike = 0, defaultdict(list)
     for i, (form, end) in enumerate(zip(forms, ends, strict=True)):
         alike[form.tau_F, form.Kd != 0, end].append(i)
     for (*_, end), members in alike.items():
-        for at in range(0, len(members), TOGETHER):
-            some = members[at : at + TOGETHER]
-            yield np.array(some), march(plant, [forms[i] for i in some], end)
+        at = 0
+        while at < len(members):
+            course = march(plant, [forms[i] for i in members[at:]], end, share(len(forms)))
+            some = members[at : at + len(course.at_rest)]
+            at += len(some)
+            if end is not None:
+                work += len(course.owner)
+                _check_work(work, len(forms), end)
+            yield np.array(some), course
 
 
-def _at(course: Course, t: np.ndarray, disturbance_time: float) -> np.ndarray:
+def _check_work(elements: int, tunings: int, t_end: float) -> None:
+    if elements > MOST_OF_ALL:
+        raise InvalidParameter(
+            f"{tunings} responses up to t = {t_end:.4g} must need at most {MOST_OF_ALL} elements, got more: ask for "
+            "fewer, or for shorter ones"
+        )
+
+
+def _at(course: Course, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:
     values = course(t)
     if disturbance_time:
         values[:, :, 1] = course(t - disturbance_time)[:, :, 1]
+    for source, (ramp, start) in enumerate(zip(ramps, (0.0, disturbance_time), strict=True)):
+        if ramp:
+            for i in range(len(values)):
+                values[i, :, source] = ramp_response(course.pieces(i), ramp, t - start)[:, :, source].T
     return values
 
 

@@ -85,7 +85,8 @@ def as_built(loop: Loop, scenario: Scenario) -> AsBuilt:
 def _long_enough(loop: Loop, scenario: Scenario, quiet: Actuation, stable: bool) -> tuple[Inputs, Stepped]:
     """The inputs with a horizon in which the loop comes to rest after each step, if it does; its course."""
     begins, t_end = times(loop, scenario)
-    inputs = Inputs(scenario.setpoint, scenario.disturbance, begins, t_end)
+    ramps = scenario.setpoint_ramp, scenario.disturbance_ramp
+    inputs = Inputs(scenario.setpoint, scenario.disturbance, begins, t_end, *ramps)
     course = actuated(loop, quiet, inputs)
     if scenario.t_end is not None or scenario.disturbance_time is not None or not stable:
         return inputs, course
@@ -107,7 +108,15 @@ def _at_rest(course: Stepped, inputs: Inputs) -> bool:
 
 
 def _linear(loop: Loop, inputs: Inputs, points: int) -> TimeResponse:
-    scenario = Scenario(inputs.setpoint, inputs.disturbance, inputs.disturbance_time, inputs.t_end, points)
+    scenario = Scenario(
+        inputs.setpoint,
+        inputs.disturbance,
+        inputs.disturbance_time,
+        inputs.t_end,
+        points,
+        setpoint_ramp=inputs.setpoint_ramp,
+        disturbance_ramp=inputs.disturbance_ramp,
+    )
     return simulate(loop, scenario)
 
 
@@ -116,7 +125,7 @@ def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuat
     time = np.minimum(np.diff(course.t), inputs.t_end - course.t[:-1])  # of each step within the horizon
     whole = time > SAME * inputs.t_end  # less than that is rounding, of a step that begins with the end
     time = time[whole]
-    e = np.abs(inputs.setpoint - course.y[whole])
+    e = np.abs(np.stack([inputs.r(course.t[:-1]), inputs.r(course.t[1:])], axis=1) - course.y)[whole]
     held = np.abs(noisy.v - noisy.u)[whole] > SAME * np.max(np.abs(noisy.u))
     moves = np.abs(np.diff(noisy.u[whole, 0])) if actuation.h else np.array([math.nan])
     return BuiltNumbers(

@@ -9,10 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pages.common.session import links, project
-from pages.common.session.design import Actuator, Cascade, Design, Tuning
+from pages.common.session.design import Actuator, Cascade, Design, Tuning, put
 from pages.common.session.loops import Entry, Loops
 from pages.common.session.sheet import TIME_UNITS, Sheet
 from simc_core import IController, IdealPid, ParallelPid, Plant, SeriesPid
+from simc_core.plants.step_facts import SettlingFacts, SlopeFacts
 
 times = st.floats(1e-3, 1e3)
 plants = st.builds(
@@ -23,6 +24,15 @@ plants = st.builds(
     leads=st.lists(times.map(lambda T: -T), max_size=1).map(tuple),
     integrators=st.integers(0, 2),
 )
+settling = st.builds(
+    SettlingFacts,
+    dOP=st.floats(-50, 50).filter(lambda change: abs(change) > 1e-2),
+    dPV=st.floats(-500, 500).filter(lambda change: abs(change) > 1e-2),
+    theta=st.just(0.0) | times,
+    t63=times.map(lambda t: 2e3 + t),
+    from_movement=st.booleans(),
+)
+slopes = st.builds(SlopeFacts, dOP=st.floats(1, 50), dPV=st.floats(-9, -1), theta=times, duration=times)
 tunings = st.builds(
     Tuning,
     order=st.sampled_from([1, 2]),
@@ -96,15 +106,27 @@ designs = st.builds(
     actuator=actuators,
 ).map(lambda design: replace(design, source="simc" if design.own is None else "own"))
 
+of_step_tests = st.builds(
+    lambda design, facts, block: replace(
+        design,
+        plant=facts.plant,
+        facts=facts,
+        cascade=replace(design.cascade, secondary=block.plant, secondary_facts=block),
+    ),
+    designs,
+    settling | slopes,
+    settling | slopes,
+)
+
 
 @settings(max_examples=50, deadline=None)
-@given(designs)
+@given(designs | of_step_tests)
 def test_a_link_opens_the_very_same_design(design):
     assert links.decode(links.encode(design)) == (design, [])
 
 
 @settings(max_examples=25, deadline=None)
-@given(designs)
+@given(designs | of_step_tests)
 def test_a_project_file_opens_the_very_same_design(design):
     loops = Loops((Entry(Design()), Entry(design)), 1)
     assert project.load(project.dump(loops).encode()) == (loops, "")
@@ -154,6 +176,10 @@ def test_the_address_of_the_default_is_short():
         ("method", "magic", "simc, synthesis"),
         ("N_outer", "0.01", ">= 0.1"),
         ("filter_outer", "pole", "N, zero"),
+        ("facts", "ramp~1~2~3~4", "step, movement, slope"),
+        ("facts", "step~5~11~20", "4 values"),
+        ("facts", "step~5~11~20~10", "t63 must be >= theta = 20"),
+        ("facts", "slope~0~11~20~10", "dOP must not be zero"),
         ("colour", "red", "no parameter"),
         ("plant", "1" * 5000, "2000 characters"),
     ],
@@ -165,6 +191,15 @@ def test_nonsense_is_left_out_and_told(name, value, why):
     if name != "plant":
         assert why in ignored[0].why
     assert len(str(ignored[0])) < 400
+
+
+def test_facts_of_another_plant_are_left_out_and_go_when_the_plant_changes():
+    facts = SettlingFacts(5, 11, 20, 200)
+    assert links.decode({"plant": "1/(s+1)", "facts": links.facts_text(facts)})[0].facts is None
+    heater, _ = links.decode({"facts": "step~5~11~20~200", "plant": "2.2 exp(-20s)/(180s+1)"})
+    assert heater.facts == facts
+    assert put(heater, "plant", Plant(2.0, 20.0, (180.0,))).facts is None
+    assert put(heater, "b", 0.5).facts == facts
 
 
 def good() -> dict:

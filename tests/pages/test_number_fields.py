@@ -221,9 +221,9 @@ def test_parameters_one_by_one_make_the_plant():
         *("20", "4"),
     ]
     app.text_input("plant_parameters_k").set_value("11/5").run()
-    app.segmented_control("plant_kind").set_value("First order").run()
+    app.segmented_control("plant_parameters_kind").set_value("First order").run()
     assert address(app)["plant"] == "2.2 exp(-3 s)/(20 s + 1)"
-    app.segmented_control("plant_kind").set_value("Integrating").run()
+    app.segmented_control("plant_parameters_kind").set_value("Integrating").run()
     assert "Still to fill in: Gain k′" in texts(app)
     assert address(app)["plant"] == "2.2 exp(-3 s)/(20 s + 1)"  # nothing is reinterpreted
     app.text_input("plant_parameters_slope").set_value("0,05").run()
@@ -253,6 +253,7 @@ def test_parameters_of_a_plant_that_is_no_such_model_begin_empty():
         ("cascade", "Windup", "cascade_views", "", {"tau_c_inner": "2", "Ms_outer": "1.7"}),
         ("cascade", "Figures", "cascade_views", "", {"method": "synthesis", "tau_c_inner": "2"}),
         ("plant", "", "views", "k, θ, τ", {}),
+        ("plant", "", "views", "Step test", {"unit": "min", "OP_unit": "*%*", "PV_unit": "°C"}),
         ("plant", "", "views", "Factors", {}),
     ],
 )

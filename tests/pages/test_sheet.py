@@ -10,6 +10,7 @@ from pages.common.session.design import Design, Tuning, in_time_unit
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import study
 from simc_core import IdealPid, InvalidParameter, Plant, SeriesPid, parse_plant
+from simc_core.plants.step_facts import SettlingFacts, SlopeFacts
 from tests.pages.test_links import designs
 from tests.pages.tools import address, run_page, texts
 
@@ -36,6 +37,16 @@ def test_there_and_back_is_the_same_design(design, unit):
     assert back.plant.lags == pytest.approx(start.plant.lags, rel=1e-15)
     assert back.plant.k == pytest.approx(start.plant.k, rel=1e-14)
     assert back.sheet == start.sheet
+
+
+def test_facts_of_a_step_test_are_converted_with_their_plant():
+    facts = SettlingFacts(5, 11, 20, 200)
+    minutes = in_time_unit(Design(facts.plant, facts=facts, sheet=Sheet(time_unit="s")), "min")
+    assert minutes.facts.t63 == 200 / 60
+    assert minutes.plant.lags == pytest.approx((3.0,), rel=1e-15)
+    level = SlopeFacts(10, 0.3, 2, 60)
+    hours = in_time_unit(Design(level.plant, facts=level, sheet=Sheet(time_unit="min")), "h")
+    assert (hours.facts.duration, hours.plant.k) == (1.0, 0.03)
 
 
 def test_margins_do_not_know_the_unit_and_times_are_sixty_times_smaller():

@@ -139,3 +139,14 @@ def test_a_loop_that_hardly_comes_to_rest_is_followed_to_the_last_instant():
     assert found.stable[0]
     expected = 1 - 2 * (np.exp(s * t[1:]) / (1 + s)).real
     assert found.y_setpoint[0, 1:] == pytest.approx(expected, abs=1e-8)
+
+
+def test_ramps_of_many_tunings_are_those_of_each_alone():
+    plant = Plant(0.05, 2.0, integrators=1)
+    model, t = half_rule(plant, 1).model, np.linspace(0.0, 80.0, 81)
+    found = sweep(plant, model, [2.0, 5.0], t, [1.0], disturbance_time=30.0, ramps=(12.0, 7.0))
+    for i, controller in enumerate(found.controllers):
+        asked = Scenario(1.0, 1.0, 30.0, setpoint_ramp=12.0, disturbance_ramp=7.0, t=t)
+        alone = simulate(Loop(plant, controller), asked)
+        together = found.y_setpoint[i] + found.y_disturbance[i], found.u_setpoint[i] + found.u_disturbance[i]
+        np.testing.assert_allclose(together, (alone.y, alone.u), rtol=0, atol=1e-9)

@@ -5,7 +5,6 @@ from html import escape
 
 import streamlit as st
 
-from pages.common.parts import strip
 from pages.common.parts.symbols import symbols
 from simc_core.published.checks import GROUPS, Check
 
@@ -22,18 +21,11 @@ WHY = {
     "Cascade": "Settings, peaks and integrals that the paper prints for its first pair of processes, both dead times "
     "exact.",
 }
-STYLE = """<style>
-[class*="st-key-references_"] {overflow-x: auto}
-[class*="st-key-references_"] table {font-size: 0.85rem; font-variant-numeric: tabular-nums; min-width: 46rem}
-[class*="st-key-references_"] :is(td, th) {padding: 0.2rem 0.6rem; white-space: nowrap}
-.strip.accuracy {grid-template-columns: auto auto 1fr}
-@media (max-width: 640px) {.strip.accuracy {grid-template-columns: 1fr}}
-</style>"""
 
 
 def summary(checks: list[Check]) -> None:
     """How many are met, and the largest difference from what is known exactly; what is not met is named."""
-    st.html(strip.STYLE + STYLE + summary_html(checks))
+    st.html(summary_html(checks))
     for found in checks:
         if not found.met:
             row = found.reference

@@ -6,7 +6,6 @@ from contextlib import contextmanager
 import streamlit as st
 
 from pages.common.cascade.readout import separation, trouble
-from pages.common.parts.refusals import STYLE
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy, speed_symbol
@@ -15,7 +14,6 @@ from simc_core.errors import NotReducible, SimcError
 
 def show(study: CascadeStudy) -> None:
     """Soundness as an error, notes of the design as warnings, the time scales where no note speaks of them."""
-    st.html(STYLE)
     with st.container(key="guards", gap="xsmall"):
         if not study.sound:
             inside = study.stability.inner.verdict != "stable"

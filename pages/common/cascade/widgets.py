@@ -22,18 +22,10 @@ SPEED_LETTERS = {"simc": "τc", "synthesis": "λ"}
 LOOPS = {"outer": "Outer loop", "inner": "Inner loop"}
 SPEEDS = [10 ** (i / 20) for i in range(-40, 21)]  # of a slider, in units of the loop's own times
 PEAKS = [1.05 + 0.05 * i for i in range(80)]
-STYLE = """<style>
-.st-key-cascade [data-testid="stVerticalBlock"] {gap: 0.6rem}
-:is(.st-key-loop_outer, .st-key-loop_inner) [data-testid="stButtonGroup"] button {padding: 0 0.45rem; min-width: 0}
-@media (max-width: 640px) { /* what moves comes first, what is set once below it */
-  .st-key-cascade [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
-}
-</style>"""
 
 
 def blocks() -> None:
     """Ga and Gb, each folded away; or a design of the paper."""
-    st.html(STYLE)
     with st.container(horizontal=True, gap="xsmall", key="blocks"):
         for name, label, title in BLOCKS:
             with st.popover(label, help=f"Enter the {title}"):

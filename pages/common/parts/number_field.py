@@ -14,17 +14,12 @@ from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import symbols
+from pages.common.parts.units import with_unit
 from pages.common.session import state
 from pages.common.session.design import PLACES
 from pages.common.session.links import number_text
 from simc_core.errors import SimcError
 from simc_core.numbers import read_number
-
-STYLE = """<style>
-[class*="st-key-refused_"] {gap: 0}
-[class*="st-key-refused_"] [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
-[class*="st-key-refused_"] p {font-size: 0.85rem; line-height: 1.35}
-</style>"""
 
 
 @dataclass(slots=True)
@@ -43,6 +38,7 @@ def number_field(
     take: Callable[[float | None], object],
     key: str,
     *,
+    unit: str = "",
     optional: bool = False,
     place: DeltaGenerator | None = None,
     under: DeltaGenerator | None = None,
@@ -62,6 +58,8 @@ def number_field(
         Puts a number that passed `check` to use.
     key
         Of the widget.
+    unit
+        The user's name of its unit, which the label shows.
     optional
         Whether the field may be empty, which gives None.
     place, under
@@ -74,11 +72,11 @@ def number_field(
         typed.text, typed.value, typed.why = number_text(value), value, ""
     state.set_widget(key, typed.text)
     place = place or st.container(width=options.get("width", "stretch"))
-    place.text_input(label, key=key, on_change=_read, args=(label, typed, check, take, key, optional), **options)
+    shown = with_unit(label, unit)
+    place.text_input(shown, key=key, on_change=_read, args=(label, typed, check, take, key, optional), **options)
     if typed.why:
         in_use = f"{number_text(value)} stays in use." if number_text(value) else "It stays empty."
         with (under or place).container(key=f"refused_{key}"):
-            st.html(STYLE)
             st.error(f"{typed.why}. {in_use}")
 
 

@@ -10,11 +10,6 @@ from pages.common.parts.symbols import sentence
 from pages.common.session import state
 from simc_core.errors import NotReducible, ParseError, RuleEnds, SimcError
 
-STYLE = """<style>
-.st-key-guards [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
-.st-key-guards p {font-size: 0.85rem; line-height: 1.35}
-</style>"""
-
 
 @contextmanager
 def explain_refusal() -> Iterator[None]:

@@ -1,8 +1,12 @@
 """The user's names of units, put where figures and tables leave room for them."""
 
+import re
 from html import escape
 
+from pages.common.parts.foreign_text import exact
 from pages.common.session.sheet import Sheet
+
+PLAIN = re.compile(r"(?:[^\W_]|[%°/·⁻²³ ()])*")  # nothing in it that Markdown or Streamlit would read as more than text
 
 
 def labels(sheet: Sheet) -> dict[str, str]:
@@ -36,3 +40,18 @@ def axes_named(figure: dict, sheet: Sheet) -> dict:
                     text = text.replace(place, unit)
                 axis["title"] = {**title, "text": text} if isinstance(title, dict) else text
     return figure
+
+
+def unit_of(what: str, sheet: Sheet) -> str:
+    """The unit of a quantity, such as "time" or "PV/(OP time)"; empty where one of its units has no name."""
+    units = {"time": sheet.time_unit, "PV": sheet.PV_unit, "OP": sheet.OP_unit}
+    if not all(units[name] for name in re.findall("time|PV|OP", what)):
+        return ""
+    return re.sub("time|PV|OP", lambda found: units[found[0]], what)
+
+
+def with_unit(label: str, unit: str) -> str:
+    """A label of a widget, as Markdown, with its unit in brackets."""
+    if not unit:
+        return label
+    return f"{label} [{unit if PLAIN.fullmatch(unit) else exact(unit)}]"

@@ -1,34 +1,41 @@
-"""Entering a plant: one line of text, its parameters, a table of factors, polynomials, or an example.
+"""Entering a plant: one line of text, parameters, a step test, a table of factors, polynomials, or an example.
 
 All describe the same plant; what is being typed is kept as draft.py says.
 """
 
 from collections.abc import Iterable
+from functools import partial
 
 import pandas as pd
 import streamlit as st
 
 from pages.common.plant import rows as entries
 from pages.common.plant.draft import Draft, dead_time_field, draft_of, gain_field, outcome, take, text_field
-from pages.common.plant.parameters import parameters
+from pages.common.plant.number_form import show as numbers
+from pages.common.plant.parameters import PARAMETERS
+from pages.common.plant.step_test import FACTS, STEP_TEST
 from pages.common.session import state
 from simc_core import Plant, parse_plant
 from simc_core.notation import plain
 from simc_core.plants.examples import EXAMPLES
 
-WAYS = ("Text", "k, θ, τ", "Factors", "Polynomials", "Examples")
-STYLE = """<style>
-:is(.st-key-plant_way, .st-key-Ga_way, .st-key-Gb_way) button {padding-inline: 0.5rem} /* all five side by side */
-</style>"""
+WAYS = ("Text", "k, θ, τ", "Step test", "Factors", "Polynomials", "Examples")
 
 
 def plant_entry(name: str = "plant", title: str = "plant") -> Plant:
     """Widgets to enter the plant called `name` in design.py (plant, Ga or Gb). Returns the last good one."""
-    st.html(STYLE)
+    first = state.memory(f"{name}_first_way", lambda: "Step test" if state.value(FACTS[name]) else WAYS[0])
     way = st.segmented_control(
-        f"Enter the {title} as", WAYS, default=WAYS[0], required=True, key=f"{name}_way", persist_state="session"
+        f"Enter the {title} as", WAYS, default=first, required=True, key=f"{name}_way", persist_state="session"
     )
-    show = dict(zip(WAYS, (_text, parameters, _factors, _polynomials, _examples), strict=True))
+    show = {
+        "Text": _text,
+        "k, θ, τ": partial(numbers, PARAMETERS),
+        "Step test": partial(numbers, STEP_TEST),
+        "Factors": _factors,
+        "Polynomials": _polynomials,
+        "Examples": _examples,
+    }
     show[way](name)
     return state.value(name)
 

@@ -11,6 +11,7 @@ from simc_core import Actuation, Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
+from simc_core.plants.step_facts import StepFacts
 from simc_core.rules.speed import WORDS, is_speed, times_theta
 
 KINDS = ("PI", "PID")
@@ -118,6 +119,7 @@ class Cascade:
     tau_c_inner, tau_c_outer: also serve as lambda of the direct synthesis; they go before the Ms of the same loop.
     N_inner, N_outer: lambda/tau_F of a PID by direct synthesis.
     filter_outer: "zero" where tau_F of the outer one is to cancel the zero of the inner loop instead.
+    primary_facts, secondary_facts: as Design.facts.
     """
 
     primary: Plant = field(default_factory=lambda: Plant(2.0, 2.0, (5.0,)))
@@ -133,9 +135,13 @@ class Cascade:
     N_inner: float = 20.0
     N_outer: float = 20.0
     filter_outer: str = "N"
+    primary_facts: StepFacts | None = None
+    secondary_facts: StepFacts | None = None
 
     def __post_init__(self):
         put = object.__setattr__
+        for block in ("primary", "secondary"):
+            put(self, f"{block}_facts", of_plant(getattr(self, f"{block}_facts"), getattr(self, block)))
         one_of("filter_outer", self.filter_outer, FILTERS)
         one_of("method", self.method, METHODS)
         one_of("inner", self.inner, KINDS)
@@ -155,6 +161,7 @@ class Cascade:
 class Design:
     """Everything a link or a project file holds.
 
+    facts: of the step test that the plant was made from; None for a plant that came otherwise, or has changed since.
     source: where the controller comes from, "simc" by tuning, or "own", the settings in `own`.
     own: my settings, None until there are any.   now: what is in the plant now, the baseline; None where not told.
     pins: tunings and settings set aside to compare with the present one.
@@ -170,6 +177,7 @@ class Design:
     sheet: Sheet = field(default_factory=Sheet)
     cascade: Cascade = field(default_factory=Cascade)
     actuator: Actuator = field(default_factory=Actuator)
+    facts: StepFacts | None = None
 
     def __post_init__(self):
         one_of("form", self.form, FORMS)
@@ -177,11 +185,12 @@ class Design:
         if self.source == "own" and self.own is None:
             raise InvalidParameter("own must be given where the controller is my settings, got nothing")
         object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
+        object.__setattr__(self, "facts", of_plant(self.facts, self.plant))
 
 
 # Where the field of each name lies, "" for the design itself. Links and widgets know fields by these names.
 PLACES: dict[str, tuple[str, str]] = {
-    **{name: ("", name) for name in ("plant", "form", "own", "now", "pins")},
+    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins")},
     "controller": ("", "source"),
     **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed")},
     **{name: ("sheet", name) for name in ("tag", "note")},
@@ -193,6 +202,8 @@ PLACES: dict[str, tuple[str, str]] = {
     },
     "Ga": ("cascade", "primary"),
     "Gb": ("cascade", "secondary"),
+    "Ga_facts": ("cascade", "primary_facts"),
+    "Gb_facts": ("cascade", "secondary_facts"),
     **{name: ("cascade", name) for name in ("method", "inner", "outer")},
     **{f"{name}_{loop}": ("cascade", f"{name}_{loop}") for name in ("tau_c", "Ms", "N") for loop in ("inner", "outer")},
     "b_outer": ("cascade", "b"),
@@ -225,10 +236,14 @@ def in_time_unit(design: Design, unit: str) -> Design:
     time = ratio(design.sheet.time_unit, unit)
     if time == 1:
         return replace(design, sheet=replace(design.sheet, time_unit=unit))
+    plant, facts = _rescaled(design.plant, design.facts, time)
+    primary, primary_facts = _rescaled(design.cascade.primary, design.cascade.primary_facts, time)
+    secondary, secondary_facts = _rescaled(design.cascade.secondary, design.cascade.secondary_facts, time)
     return replace(
         design,
         sheet=replace(design.sheet, time_unit=unit),
-        plant=design.plant.rescaled(time),
+        plant=plant,
+        facts=facts,
         tuning=_in_time(design.tuning, time),
         own=None if design.own is None else design.own.rescaled(time),
         now=None if design.now is None else design.now.rescaled(time),
@@ -236,13 +251,28 @@ def in_time_unit(design: Design, unit: str) -> Design:
         actuator=_in_time(design.actuator, time),
         cascade=replace(
             _in_time(design.cascade, time),
-            primary=design.cascade.primary.rescaled(time),
-            secondary=design.cascade.secondary.rescaled(time),
+            primary=primary,
+            secondary=secondary,
+            primary_facts=primary_facts,
+            secondary_facts=secondary_facts,
         ),
     )
 
 
 TIMES = ("tau_c", "h", "tracking_time", "tau_c_inner", "tau_c_outer")
+
+
+def _rescaled(plant: Plant, facts: StepFacts | None, time: Fraction) -> tuple[Plant, StepFacts | None]:
+    """A plant with its facts; where there are some, the plant is made from them again."""
+    if facts is None:
+        return plant.rescaled(time), None
+    facts = facts.rescaled(time)
+    return facts.plant, facts
+
+
+def of_plant(facts: StepFacts | None, plant: Plant) -> StepFacts | None:
+    """The facts if this is their plant; those of another plant tell nothing here."""
+    return facts if facts is not None and facts.plant == plant else None
 
 
 def _in_time(record, time: Fraction):

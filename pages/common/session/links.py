@@ -1,10 +1,11 @@
 """A Design as query parameters and back. Pure: no streamlit, so that it can be tested alone.
 
     plant, order, h, tau_c, b, filter, rules, speed, form   the design itself; from h on only where not the default
+    facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
     pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
-    Ga, Gb, method, inner, ...                       the cascade, only where it is not the default
+    Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
     u_min, u_max, T_t, noise, seed, sampling, r, d   the loop as built, only where it is not the default
 
 Numbers are written with all their digits, so that a link opens the very same design.
@@ -20,6 +21,7 @@ from simc_core import parse_plant
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
 from simc_core.notation import plain
+from simc_core.plants.step_facts import SettlingFacts, SlopeFacts, StepFacts
 
 LONGEST_VALUE = 2000  # characters of one parameter; a plant of 40 poles needs fewer
 TUNING_FIELDS = tuple(name for name, (record, _) in PLACES.items() if record == "tuning")
@@ -31,6 +33,8 @@ TEXTS = (
     *("method", "inner", "outer", "filter_outer"),
 )
 PLANTS = ("plant", "Ga", "Gb")
+FACTS = ("facts", "Ga_facts", "Gb_facts")
+FIRST_READ = (*SETTINGS, *PLANTS)  # what others refer to
 ALWAYS = ("plant", "order")
 FIRST = ("plant", *TUNING_FIELDS, "form", "pins")  # in an address; the others in the order of PLACES
 ORDER = (*FIRST, *(name for name in PLACES if name not in FIRST))
@@ -71,7 +75,7 @@ def decode(parameters: Mapping[str, str]) -> tuple[Design, list[Ignored]]:
     Parameters are taken one by one: a bad one leaves the default and does not spoil the others.
     """
     design, ignored = Design(), []
-    for name, value in sorted(parameters.items(), key=lambda item: item[0] not in SETTINGS):  # which may then be chosen
+    for name, value in sorted(parameters.items(), key=lambda item: item[0] not in FIRST_READ):
         try:
             design = _changed(design, name, value)
         except SimcError as error:
@@ -115,6 +119,8 @@ def _text(name: str, value) -> str:
         return "!".join(map(_pin_text, value))
     if name in SETTINGS:
         return settings_text(value)
+    if name in FACTS:
+        return facts_text(value)
     return plain(value) if name in PLANTS else number_text(value)
 
 
@@ -127,6 +133,8 @@ def _read(name: str, text: str):
         return tuple(map(_pin, text.split("!")))
     if name in SETTINGS:
         return settings_of(text)
+    if name in FACTS:
+        return facts_of(text)
     try:
         return float(text)
     except ValueError:
@@ -152,6 +160,29 @@ def settings_of(text: str) -> Controller:
     if len(values) != wanted:
         raise SimcError(f"settings in {form} form have {wanted} values separated by ~, got {len(values)}")
     return kind(*(_read("settings", value) for value in values))
+
+
+def facts_text(facts: StepFacts | None) -> str:
+    """step~dOP~dPV~theta~t63, movement~ the same, or slope~dOP~dPV~theta~duration; empty for None."""
+    match facts:
+        case None:
+            return ""
+        case SlopeFacts(dOP, dPV, theta, time):
+            word = "slope"
+        case SettlingFacts(dOP, dPV, theta, time, from_movement):
+            word = "movement" if from_movement else "step"
+    return "~".join([word, *map(number_text, (dOP, dPV, theta, time))])
+
+
+def facts_of(text: str) -> StepFacts:
+    """The facts of a text. Raises SimcError."""
+    word, *values = text.split("~")
+    if word not in ("step", "movement", "slope"):
+        raise SimcError(f"facts begin with one of step, movement, slope, got {word[:20]}")
+    if len(values) != 4:
+        raise SimcError(f"facts of a step test have 4 values separated by ~, got {len(values)}")
+    numbers = [_read("facts of a step test", value) for value in values]
+    return SlopeFacts(*numbers) if word == "slope" else SettlingFacts(*numbers, word == "movement")
 
 
 def _pin_text(pin: Tuning | Controller) -> str:

@@ -6,7 +6,6 @@ from html import escape
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from pages.common.parts import strip
 from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.refusals import explain_refusal
@@ -14,7 +13,7 @@ from pages.common.session import state
 from pages.common.session.design import Actuator
 from pages.common.studies.single import Study
 from pages.common.tuning.guards import proposal
-from simc_core.figures import built_input_figure, built_output_figure, palette
+from simc_core.figures import built_input_figure, built_output_figure
 from simc_core.notation import number
 from simc_core.studies.advice import Advice
 from simc_core.studies.built_advice import error_integral, out_of_reach, protections_compared, sampling_not_in_tuning
@@ -23,26 +22,12 @@ from simc_core.studies.with_actuator import AsBuilt, BuiltNumbers, as_built
 VIEW = "As built"
 HEIGHT = 330  # px
 DIGITS = 3
-NARROW = "@media (max-width: 640px)"
-STYLE = f"""<style>
-.st-key-actuator_inputs {{display: grid; grid-template-columns: repeat(4, 1fr); gap: 0.25rem 0.75rem}}
-.st-key-actuator_inputs label p {{white-space: nowrap}}
-.strip.built {{grid-template-columns: repeat(auto-fit, minmax(9.5rem, 1fr))}}
-{NARROW} {{.st-key-actuator_inputs, .strip.built {{grid-template-columns: 1fr 1fr}}}}
-</style>"""
-MARK = f"""<style>
-[class*="st-key-mark_"] {{border-left: 4px solid {palette.ATTENTION}; padding-left: 0.6rem; gap: 0}}
-[class*="st-key-mark_"] p {{font-size: 0.875rem; line-height: 1.35}}
-.st-key-mark_narrow {{display: none}}
-{NARROW} {{.st-key-mark_narrow {{display: flex}} .st-key-mark_wide {{display: none}}}}
-</style>"""
 
 
 def mark(actuator: Actuator, place: str) -> None:
     """Where the loop as built is not the linear one, say so. place: "wide", beside the view, or "narrow", above it."""
     if not actuator.on:
         return
-    st.html(MARK)
     with st.container(key=f"mark_{place}"):
         st.markdown(
             f"**As built: {words(actuator)}.** Margins, metrics and curves are those of the linear loop, except under "
@@ -75,7 +60,6 @@ def words(actuator: Actuator) -> str:
 
 def actuator_view(study: Study, actuator: Actuator) -> None:
     """Inputs on top; numbers; y and u as built over the linear loop."""
-    st.html(strip.STYLE + STYLE)
     _inputs()
     with st.container(key="built_guards", gap="xsmall"):
         for item in guards_of(study, actuator):

@@ -2,7 +2,6 @@
 
 import streamlit as st
 
-from pages.common.parts.refusals import STYLE
 from pages.common.parts.symbols import spoken, symbols
 from pages.common.session import state
 from pages.common.studies.single import Study
@@ -15,7 +14,6 @@ PLACES = {"error": st.error, "warning": st.warning, "note": st.caption}
 
 def show(study: Study) -> None:
     """Advice on the design, the gravest first; what it proposes is a button."""
-    st.html(STYLE)
     with st.container(key="guards", gap="xsmall"):
         for item in advice(study.tuned) if study.tuned else advice_on_settings(study.loop.plant, study.controller):
             proposal(item)

@@ -2,13 +2,13 @@
 
 import streamlit as st
 
-from pages.common.parts.strip import STYLE, Reading, cell_html, gain_margin, pair, peak_html, reading
+from pages.common.parts.strip import Reading, cell_html, gain_margin, pair, peak_html, reading
 from pages.common.studies.single import Study
 
 
 def readout(study: Study) -> None:
     """The strip; for a loop that is not stable it says so and holds no numbers."""
-    st.html(STYLE + strip_html(study))
+    st.html(strip_html(study))
 
 
 def strip_html(study: Study) -> str:

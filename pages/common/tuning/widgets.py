@@ -24,17 +24,6 @@ STEPS_PER_DECADE = 20
 SAME = 1e-9  # relative; one tau_c typed and chosen
 SLOW = ": slower than the plant alone, or than 8 θ for an integrating one"
 SHORTEST, LONGEST = -1, 2  # decades of tau_c/theta on the slider
-STYLE = """<style>
-.st-key-presets, .st-key-multiples {display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem}
-.st-key-presets button, .st-key-multiples button {min-height: 2rem; padding: 0 0.5rem}
-.st-key-tuning {container-type: inline-size}
-@container (max-width: 740px) { /* what moves comes first, what is set once below it */
-  .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
-  .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) > [data-testid="stColumn"] {
-    flex: 1 1 auto; width: 100%; min-width: 100%
-  }
-}
-</style>"""
 
 
 def tau_c_control(study: Study, slider: bool = True) -> None:
@@ -42,7 +31,6 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
 
     slider=False: without it, where the live instrument has one.
     """
-    st.html(STYLE)
     model, tau_c = study.model, study.tau_c
     if isinstance(model, UnstableDelay):
         st.markdown(f"$\\tau_c = \\theta$ = **{number(tau_c)}**")

@@ -23,6 +23,7 @@ from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.one_step import Linear, Step
+from simc_core.simulation.rise import mean_risen, risen
 
 STEPS = 5000  # at least; more where theta or h is short against the horizon
 MOST_STEPS = 50_000  # less than 0.1 s
@@ -79,12 +80,22 @@ class Actuation:
 
 @dataclass(frozen=True, slots=True)
 class Inputs:
-    """Heights of the steps of r at 0 and of d at disturbance_time; the horizon."""
+    """Heights of r from 0 and of d from disturbance_time on; the horizon; times in which the heights are reached."""
 
     setpoint: float
     disturbance: float
     disturbance_time: float
     t_end: float
+    setpoint_ramp: float = 0.0
+    disturbance_ramp: float = 0.0
+
+    def r(self, t: np.ndarray) -> np.ndarray:
+        """The set point, right-hand limits."""
+        return self.setpoint * risen(t, self.setpoint_ramp)
+
+    def d(self, t: np.ndarray) -> np.ndarray:
+        """The disturbance, right-hand limits."""
+        return self.disturbance * risen(t - self.disturbance_time, self.disturbance_ramp)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -141,12 +152,13 @@ def tracking_time_in_use(loop: Loop, actuation: Actuation) -> float:
 class Driven:
     """The plant over one step, driven by u behind its dead time and by d; see the module docstring.
 
+    A ramp of d acts by its mean over each step.
     step: Phi, G1, G2.   first, whole: the step in which d arrives, and the first that it drives from start to end, the
     same if it comes just with a step.   kick: what d = 1 adds to x in step `first`.
     """
 
     def __init__(self, system: Linear, step: Step, dt: float, theta: float, inputs: Inputs):
-        self.system, self.step, self.d = system, step, inputs.disturbance
+        self.system, self.step, self.dt, self.theta, self.inputs = system, step, dt, theta, inputs
         arrives = (inputs.disturbance_time + theta) / dt
         near = round(arrives)
         self.first = self.whole = near if abs(arrives - near) < SAME * arrives else math.floor(arrives)
@@ -164,8 +176,12 @@ class Driven:
 
     def rows(self, steps: int, columns: int) -> np.ndarray:
         """z_0 ... z_steps, (steps + 1, columns), zero but for d."""
-        z = np.zeros((steps + 1, columns))
-        z[self.whole :, LOAD] = z[self.first : self.whole, ARRIVING] = self.d
+        z, height = np.zeros((steps + 1, columns)), self.inputs.disturbance
+        if ramp := self.inputs.disturbance_ramp:
+            since = self.dt * np.arange(steps + 1) - self.theta - self.inputs.disturbance_time
+            z[:, LOAD] = height * mean_risen(since, self.dt, ramp)
+        else:
+            z[self.whole :, LOAD] = z[self.first : self.whole, ARRIVING] = height
         return z
 
 

@@ -25,7 +25,6 @@ from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.simulation.actuator.actuation import (
     OF_PLANT,
-    SAME,
     STEPS,
     W1,
     W2,
@@ -37,7 +36,7 @@ from simc_core.simulation.actuator.actuation import (
     stepped,
     tracking_time_in_use,
 )
-from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.actuator.one_step import Linear, whole_steps
 from simc_core.simulation.actuator.sampled import sampled
 
 # Columns of z behind x. ASKED: u at the start and the end of the step before if there were no limits, GIVEN: as it is.
@@ -47,7 +46,7 @@ COLUMNS = len(OF_LAW) + len(OF_PLANT)
 
 
 def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Stepped:
-    """Steps of r at 0 and of d at inputs.disturbance_time, from rest, as the module docstring says.
+    """r from 0 and d from inputs.disturbance_time on, from rest, as the module docstring says.
 
     Raises InvalidParameter: derivative action without a filter on a plant without inertia or on a set-point step,
     more than actuation.MOST_STEPS steps.
@@ -59,14 +58,14 @@ def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Stepped:
 
 def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs) -> Stepped:
     system, theta = _measured(loop, form), loop.plant.theta
-    m = max(1, math.ceil(theta * STEPS / inputs.t_end * (1 - SAME))) if theta else 0
+    m = whole_steps(theta * STEPS / inputs.t_end) if theta else 0
     dt = theta / m if m else inputs.t_end / STEPS
     N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
     m, n = min(m, N), len(system.B)
     plant = Driven(system, system.ramp(dt), dt, theta, inputs)
     law = _law(plant, form.Ki, dt / 2, tracking_time_in_use(loop, actuation), at_once=m == 0)
     z = plant.rows(N + m, n + COLUMNS)
-    ask, rate = _known(form, actuation, inputs.setpoint, dt, N)
+    ask, rate = _known(form, actuation, inputs, dt, N)
     z[:N, n + ASK0 : n + RATE], z[:N, n + RATE] = ask, dt / 2 * rate.sum(axis=1)
     _march(z, n, N, m, law, actuation)
     now, then = z[:N], z[1 : N + 1]
@@ -131,25 +130,34 @@ def _law(plant: Driven, Ki: float, half: float, T_t: float, at_once: bool) -> _L
     return _Law(matrix, (of_u0 - first[1]) / own, np.array([y0, y1]), np.array([v0, rest]), integral)
 
 
-def _known(
-    form: ParallelPid, actuation: Actuation, setpoint: float, dt: float, N: int
-) -> tuple[np.ndarray, np.ndarray]:
+def _known(form: ParallelPid, actuation: Actuation, inputs: Inputs, dt: float, N: int) -> tuple[np.ndarray, np.ndarray]:
     """What set point and noise give to P + D and to I', at the starts and ends of the steps, (N, 2) each."""
     t = dt * np.arange(N + 1)
     n = actuation.noise * np.random.default_rng(actuation.seed).standard_normal(N + 1)
     if form.tau_F:
-        decay = np.exp(-t / form.tau_F)
-        rF, r_slope = setpoint * (1 - decay), _both(setpoint / form.tau_F * decay)
+        rF, slope = _filtered(t, form.tau_F, inputs.setpoint_ramp)
+        rF, r_slope = inputs.setpoint * rF, _both(inputs.setpoint * slope)
         ratio = dt / form.tau_F  # the filter under an input that is linear over a step
         held = -math.expm1(-ratio)
         grown = 1 - held / ratio
         nF = lfilter([grown, held - grown], [1.0, -math.exp(-ratio)], n)
         n_slope = _both((n - nF) / form.tau_F)
     else:
-        rF, r_slope, nF = np.full(N + 1, setpoint), 0.0, n
+        rF, nF = inputs.r(t), n
+        r_slope = np.repeat(np.diff(rF)[:, None] / dt, 2, axis=1)
         n_slope = np.repeat(np.diff(n)[:, None] / dt, 2, axis=1)
     ask = form.Kp * _both(form.b * rF - nF) + form.Kd * (form.c * r_slope - n_slope)
     return ask, form.Ki * _both(rF - nF)
+
+
+def _filtered(t: np.ndarray, tau_F: float, ramp: float) -> tuple[np.ndarray, np.ndarray]:
+    """A set point of height 1 behind the filter, and its slope, at t >= 0."""
+    decay = np.exp(-t / tau_F)
+    if not ramp:
+        return 1 - decay, decay / tau_F
+    since = np.maximum(t - ramp, 0.0)
+    decayed = np.exp(-since / tau_F)
+    return (t - since + tau_F * (decay - decayed)) / ramp, (decayed - decay) / ramp
 
 
 def _both(values: np.ndarray) -> np.ndarray:

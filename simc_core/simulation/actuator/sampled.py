@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+from scipy.signal import lfilter
 
 from simc_core.algebra.state_space import chain
 from simc_core.controllers.forms import ParallelPid
@@ -30,7 +31,7 @@ from simc_core.simulation.actuator.actuation import (
     stepped,
     tracking_time_in_use,
 )
-from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.actuator.one_step import Linear, whole_steps
 
 # Columns of z behind x. MEASURED: y at the end of the step before, but for its u.   FILTERED, INTEGRAL, ASKED: yF, I, v
 # of the last sample.   GIVEN: u of the step before.   NOISE, SETPOINT, MOVE: see _known, in the rows of the samples.
@@ -42,7 +43,7 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     """As saturation.actuated, for h > 0. Raises InvalidParameter beyond actuation.MOST_STEPS steps."""
     A, B, C, D = chain(loop.plant.factored)
     system, theta, h, n = Linear(A, B, C[None, :], np.array([D])), loop.plant.theta, actuation.h, len(B)
-    fine = max(1, math.ceil(h * STEPS / inputs.t_end * (1 - SAME)))  # steps a sampling period
+    fine = whole_steps(h * STEPS / inputs.t_end)  # steps a sampling period
     dt = h / fine
     N = affordable(inputs.t_end / dt, f"a sampling period of {h:g}")
     m = min(math.ceil(theta / dt * (1 - SAME)), N)
@@ -55,7 +56,7 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     with_sample, without, y = _law(plant, form, h, pull, reach)
     z, ahead = plant.rows(N + m, n + COLUMNS), [without.dot] * N
     samples = math.ceil(N / fine)
-    z[:N:fine, n + NOISE : n + MOVE + 1] = _known(form, actuation, inputs.setpoint, samples)
+    z[:N:fine, n + NOISE : n + MOVE + 1] = _known(form, actuation, inputs, samples)
     ahead[::fine] = [with_sample.dot] * samples
     _march(z, n, ahead, reach, actuation)
     v, u = (np.repeat(z[1 : N + 1, n + column, None], 2, axis=1) for column in (ASKED, GIVEN))
@@ -93,9 +94,10 @@ def _law(plant: Driven, form: ParallelPid, h: float, pull: float, reach: tuple[i
     return with_sample, without, np.array([y0, y1])
 
 
-def _known(form: ParallelPid, actuation: Actuation, setpoint: float, samples: int) -> np.ndarray:
+def _known(form: ParallelPid, actuation: Actuation, inputs: Inputs, samples: int) -> np.ndarray:
     """Noise, rF and its moves at the samples, (samples, 3)."""
     noise = actuation.noise * np.random.default_rng(actuation.seed).standard_normal(samples)
     keep = form.tau_F / (form.tau_F + actuation.h)
-    rF = setpoint * (1 - keep ** np.arange(samples + 1))
+    r = np.append(0.0, inputs.r(actuation.h * np.arange(samples)))
+    rF = lfilter([1 - keep], [1.0, -keep], r)
     return np.stack([noise, rF[1:], np.diff(rF)], axis=1)

@@ -18,7 +18,10 @@ ENDS = chebyshev.chebvander(np.array([-1.0, 1.0]), P - 1)  # coefficients -> val
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pieces:
-    """edges: (m + 1,) increasing from 0.   coefficients: (m, P, ...), Chebyshev, on each [edges[i], edges[i + 1]]."""
+    """edges: (m + 1,) increasing from 0.   coefficients: (m, p, ...), Chebyshev, on each [edges[i], edges[i + 1]].
+
+    p is P for a response, P + 1 for its integral.
+    """
 
     edges: np.ndarray
     coefficients: np.ndarray
@@ -36,7 +39,7 @@ class Pieces:
         at = np.minimum(self.edges.searchsorted(seen, side="right"), len(self.coefficients)) - 1
         piece = np.maximum(at, 0)
         x = (t - self.edges[piece]) * (2 / (self.edges[1:] - self.edges[:-1]))[piece] - 1
-        basis = chebyshev_basis(np.minimum(np.maximum(x, -1.0), 1.0))
+        basis = chebyshev_basis(np.minimum(np.maximum(x, -1.0), 1.0), self.coefficients.shape[1])
         rows = self._flat().transpose(0, 2, 1)
         values = np.zeros((rows.shape[1], len(t)))
         new = np.ones(len(t), dtype=bool)
@@ -52,10 +55,22 @@ class Pieces:
         found, shape = ENDS @ self._flat(), self.coefficients.shape[2:]
         return found[:, 0].reshape(-1, *shape), found[:, 1].reshape(-1, *shape)
 
+    def integral(self, until: float) -> "Pieces":
+        """The integral from 0, exact, up to `until`; behind the last piece of a response it goes on straight."""
+        edges, coefficients = self.edges, self.coefficients
+        if until > edges[-1]:
+            rest = np.zeros_like(coefficients[:1])
+            rest[0, 0] = coefficients[-1].sum(axis=0)  # T_k(1) = 1
+            edges, coefficients = np.append(edges, until), np.concatenate([coefficients, rest])
+        half = np.diff(edges).reshape(-1, *[1] * (coefficients.ndim - 2)) / 2
+        integrals = half[:, None] * chebyshev.chebint(coefficients, lbnd=-1, axis=1)
+        integrals[1:, 0] += np.cumsum(integrals.sum(axis=1), axis=0)[:-1]
+        return Pieces(edges, integrals)
+
     def _flat(self) -> np.ndarray:
-        """Coefficients with all signals in one axis, (m, P, signals)."""
-        m, _, *shape = self.coefficients.shape
-        return self.coefficients.reshape(m, P, math.prod(shape))
+        """Coefficients with all signals in one axis, (m, p, signals)."""
+        m, p, *shape = self.coefficients.shape
+        return self.coefficients.reshape(m, p, math.prod(shape))
 
 
 def chebyshev_basis(x: np.ndarray, p: int = P) -> np.ndarray:

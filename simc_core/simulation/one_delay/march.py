@@ -18,40 +18,44 @@ How long an element may be, see pace.py. A horizon of 10^6 dead times costs a fe
 
 import math
 from collections.abc import Sequence
+from typing import NoReturn
 
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
 from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
+from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.simulation.collocation.elements import P
 from simc_core.simulation.one_delay.closed_element import END, PARTS, Law, Z
 from simc_core.simulation.one_delay.element_sizes import levels
+from simc_core.simulation.one_delay.limits import LOOK, MOST_HELD, MOST_TO_END, MOST_TO_REST, oscillation, together
 from simc_core.simulation.one_delay.step_control import TAIL, Pace
 from simc_core.simulation.one_delay.unit_responses import Course, Stretch, course
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
-MOST_TO_END, MOST_TO_REST = 12_000, 6_000  # elements of one tuning, 30 us each
 LARGEST = 1e150  # an unstable response is cut off here
 
 
-def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None) -> Course:
-    """All tunings from rest to t_end, or to their rest (t_end = None, for stable loops).
+def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most_to_rest: int = MOST_TO_REST) -> Course:
+    """The first tunings, as many as limits.py lets march together, from rest to t_end, or to their rest (t_end = None,
+    for stable loops).
 
-    forms: controllers with one tau_F. Raises InvalidParameter: derivative action without filter where y or r may jump;
-    an ill-posed loop without dead time; a t_end that needs more than MOST_TO_END elements.
+    forms: controllers with one tau_F.   most_to_rest: elements of one tuning, after which it is left where it is.
+    Raises InvalidParameter: derivative action without filter where y or r may jump; an ill-posed loop without dead
+    time; a t_end that needs more than MOST_TO_END elements.
     """
     _check(plant, forms)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for finer in range(FINEST + 1):
-            walk = _Walk(plant, forms, t_end, finer)
+            walk = _Walk(plant, forms, t_end, finer, most_to_rest)
             if walk.arrives():
                 break
-    return course(walk.stretches, [pace.at_rest for pace in walk.paces])
+    return course(walk.stretches, [pace.at_rest for pace in walk.paces[: walk.n_left]])
 
 
 def final_values(plant: Plant, form: ParallelPid) -> np.ndarray:
@@ -84,10 +88,20 @@ class _Walk:
     A step is some intervals or one element: what G makes of (w, S), one array (k, END + size, 2) for each element.
     """
 
-    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int):
-        n = len(forms)
+    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int, most_to_rest: int):
         self.proportional, self.derivative = any(form.Kp for form in forms), any(form.Kd for form in forms)
         self.levels = levels(plant, forms[0].tau_F, self.derivative, finer)
+        self.count = self._count(plant.theta, t_end)
+        at_first = self.count * len(self.levels.mesh)
+        if at_first > MOST_TO_END:
+            raise InvalidParameter(
+                f"the first {self.count} dead times must need at most {MOST_TO_END} elements, got {at_first}: "
+                "modes of the plant are too fast for its dead time"
+            )
+        forms = forms[: together(at_first)]
+        n = self.n_left = len(forms)
+        self.plant, self.forms = plant, forms
+        self.most = most_to_rest if t_end is None else MOST_TO_END
         self.law = Law(forms, self.levels)
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.theta, self.t_end, self.n = plant.theta, t_end, n
@@ -105,6 +119,7 @@ class _Walk:
         self.paces = [Pace() for _ in range(n)]
         self.active = dict.fromkeys(range(n))
         self.stretches: list[Stretch] = []
+        self.held = 0  # elements in them
 
     def arrives(self) -> bool:
         """The whole way; False as soon as the mesh turns out to be too coarse."""
@@ -118,11 +133,16 @@ class _Walk:
 
     def intervals(self) -> None:
         """The first intervals of theta, all tunings together, until what comes back is smooth."""
-        everyone, degree = list(range(self.n)), self._degree()
+        everyone = list(range(self.n))
+        self._decide(everyone, slice(None), 0, self._intervals(everyone, slice(None), self.count))
+
+    def _count(self, theta: float, t_end: float | None) -> int:
+        """Intervals of theta that are stepped over first."""
+        degree = self._degree()
         count = 2 + math.ceil(SMOOTH / degree) if degree else 3 * SMOOTH
-        if not self.to_rest:
-            count = min(count, math.floor(self.t_end / self.theta * (1 + 1e-12)) + 1)
-        self._decide(everyone, slice(None), 0, self._intervals(everyone, slice(None), max(count, 1)))
+        if theta and t_end is not None:
+            count = min(count, math.floor(t_end / theta * (1 + 1e-12)) + 1)
+        return max(count, 1)
 
     def _degree(self) -> int:
         """Least relative degree of the loops."""
@@ -133,19 +153,44 @@ class _Walk:
 
     def elements(self) -> None:
         """On at every tuning's own pace."""
-        work, most = 0, MOST_TO_REST if self.to_rest else MOST_TO_END
-        while self.active and work < most:
+        work, looked = 0, False
+        while self.active and work < self.most:
             groups: dict[tuple[bool, int], list[int]] = {}
             for i in self.active:
                 pace = self.paces[i]
                 groups.setdefault((pace.before == 0, pace.level), []).append(i)
             self._groups(groups)
             work += 1 if not self.theta or all(level for _, level in groups) else len(self.mesh)
+            while self.held > MOST_HELD and self.n_left > 1:
+                self._leave_half()
+            if work >= LOOK and not looked:
+                looked = True
+                self._drop_endless()
         if self.active and not self.to_rest:
-            raise InvalidParameter(
-                f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
-                f"{min(self.paces[i].t for i in self.active):.4g}: the loop oscillates too fast for it"
-            )
+            self._refuse(min(self.paces[i].t for i in self.active))
+
+    def _refuse(self, covered: float) -> NoReturn:
+        raise InvalidParameter(
+            f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
+            f"{covered:.4g}: the loop oscillates too fast for it"
+        )
+
+    def _leave_half(self) -> None:
+        """Half of the tunings that are left are for another march."""
+        self.n_left = math.ceil(self.n_left / 2)
+        self.active = {i: None for i in self.active if i < self.n_left}
+        self.stretches = [each.first(self.n_left) for each in self.stretches if each.which[0] < self.n_left]
+        self.held = sum(len(each.which) * len(each.values) for each in self.stretches)
+
+    def _drop_endless(self) -> None:
+        """Stop where even the least number of elements is too many."""
+        for i in list(self.active):
+            per_time, duration = oscillation(Loop(self.plant, self.forms[i]))
+            end = duration if self.to_rest else min(duration, self.t_end)
+            if per_time * end > self.most:
+                if not self.to_rest:
+                    self._refuse(self.most / per_time)
+                del self.active[i]
 
     def _groups(self, groups: dict[tuple[bool, int], list[int]]) -> None:
         """One stretch each. Keys: whether it follows an interval on the mesh, and its level."""
@@ -225,6 +270,7 @@ class _Walk:
         """Enter a stretch, and go on from its end."""
         paces, intervals = [self.paces[i] for i in which], len(step) // len(parts)
         self.stretches.append(Stretch(which, [pace.t for pace in paces], parts * intervals, step))
+        self.held += len(which) * len(step)
         self.S[at] = step[-1][:, END:]
         for places, out in zip(self.places[-len(parts) :], step[-len(parts) :], strict=True):
             self.z[at, places] = out[:, Z]

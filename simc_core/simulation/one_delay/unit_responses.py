@@ -23,6 +23,13 @@ class Stretch(NamedTuple):
     lengths: list[float]
     values: list[np.ndarray]
 
+    def first(self, n: int) -> "Stretch":
+        """Of the tunings below n, which there must be."""
+        k = sum(i < n for i in self.which)  # in increasing order
+        if k == len(self.which):
+            return self
+        return Stretch(self.which[:k], self.begin[:k], self.lengths, [own[:k].copy() for own in self.values])
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:

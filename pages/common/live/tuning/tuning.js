@@ -19,7 +19,8 @@ export class Tuning extends Instrument {
     });
     const wanted = document.createElement("label");
     wanted.title = "Sets tau_c to the smallest with this Ms, exactly";
-    wanted.innerHTML = `Smallest τ<sub>c</sub> with Ms ≤ <input class="ms" inputmode="decimal" maxlength="100" placeholder="1.6" aria-label="Smallest tau_c with Ms at most">`;
+    wanted.innerHTML = `Smallest τ<sub>c</sub> with Ms ≤ <input class="ms" inputmode="decimal" maxlength="100"
+      placeholder="1.6" aria-label="Smallest tau_c with Ms at most">`;
     wanted.lastChild.addEventListener(
       "change",
       (event) => event.target.value && this.ask({ Ms: event.target.value }), // as typed: Python reads it
@@ -133,7 +134,8 @@ export class Tuning extends Instrument {
     if (!stable) return `tau_c ${text(tau_c)}: the loop is not stable`;
     return (
       `tau_c ${text(tau_c)}: Ms ${text(m.Ms)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
-      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_disturbance)}, overshoot ${text(100 * m.overshoot, 3)} percent`
+      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_disturbance)}, ` +
+      `overshoot ${text(100 * m.overshoot, 3)} percent`
     );
   }
 }
