@@ -24,9 +24,9 @@ SITUATIONS = {
     "theta > 0": (1.0, LIMITED),
     "theta = 0": (0.0, LIMITED),
     "theta < step": (0.6 * STEP, LIMITED),
-    "sampled": (1.0, replace(LIMITED, h=STEP)),
-    "sampled, theta < step": (0.6 * STEP, replace(LIMITED, h=STEP)),
-    "noise": (1.0, replace(LIMITED, noise=0.01)),
+    "sampled": (1.0, replace(LIMITED, actuation=replace(LIMITED.actuation, h=STEP))),
+    "sampled, theta < step": (0.6 * STEP, replace(LIMITED, actuation=replace(LIMITED.actuation, h=STEP))),
+    "noise": (1.0, replace(LIMITED, actuation=replace(LIMITED.actuation, noise=0.01))),
 }
 
 

@@ -11,7 +11,6 @@ from scipy.signal import cont2discrete, tf2ss
 
 from simc_core import (
     CascadeLoop,
-    IController,
     InvalidParameter,
     Loop,
     ParallelPid,
@@ -21,7 +20,7 @@ from simc_core import (
     simulate,
 )
 from simc_core.interop import closed_loop
-from simc_core.simulation.actuator.actuation import Actuation, Inputs, Stepped, tracking_time
+from simc_core.simulation.actuator.actuation import Actuation, Inputs, Stepped, tracking_time_in_use
 from simc_core.simulation.actuator.continuous import actuated as run
 from tests.oracles.saturated_loop import by_steps
 
@@ -140,12 +139,10 @@ def test_anti_windup_shortens_the_overshoot_that_a_saturated_integrator_makes():
     assert tracked.y.max() < wound.y.max() - 0.05
 
 
-def test_default_tracking_times():
-    plant = Plant(2.0, 1.0, (8.0,))
-    assert tracking_time(Loop(plant, SeriesPid(4.0, 8.0)), Actuation()) == 8.0
-    assert tracking_time(Loop(plant, SeriesPid(4.0, 8.0, 2.0)), Actuation()) == pytest.approx(4.0)  # sqrt(10 * 1.6)
-    assert tracking_time(Loop(plant, IController(0.25)), Actuation()) == 2.0
-    assert tracking_time(Loop(plant, SeriesPid(4.0, 8.0)), Actuation(tracking_time=3.0)) == 3.0
+def test_a_tracking_time_that_is_given_goes_before_the_usual_one():
+    loop = Loop(Plant(2.0, 1.0, (8.0,)), SeriesPid(4.0, 8.0))
+    assert tracking_time_in_use(loop, Actuation()) == 8.0
+    assert tracking_time_in_use(loop, Actuation(tracking_time=3.0)) == 3.0
 
 
 def test_what_costs_too_much_or_has_no_meaning_is_refused():

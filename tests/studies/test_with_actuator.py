@@ -69,3 +69,13 @@ def test_an_unstable_loop_has_curves_and_no_numbers():
     )
     assert found.numbers is None
     assert np.ptp(found.built.y) > 0.1
+
+
+@pytest.mark.parametrize("t_end", [20.0, 7.3, 3.3, 2.1, 0.3])
+@pytest.mark.parametrize("h", [0.0, 0.1, 0.7])
+def test_integrals_end_with_the_horizon_whatever_the_step(t_end, h):
+    """Y stays 0, so |e| = 1 all the time; u is at its limit from the start."""
+    loop = Loop(DEAF.plant, SeriesPid(4.0, 8.0))
+    found = as_built(loop, Scenario(1.0, 0.0, t_end=t_end, actuation=Actuation(u_max=1.0, h=h))).numbers
+    assert pytest.approx(t_end, rel=1e-5) == found.IAE
+    assert found.limited == pytest.approx(t_end, rel=1e-5)

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers.forms import Controller
+from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.one_step import Linear, Step
@@ -142,24 +142,11 @@ def stepped(dt: float, y: np.ndarray, v: np.ndarray, u: np.ndarray, h: float) ->
     return Stepped(dt * np.arange(N + 1), y[:N], v[:N], u[:N], h)
 
 
-def tracking_time(loop: Loop, actuation: Actuation) -> float:
+def tracking_time_in_use(loop: Loop, actuation: Actuation) -> float:
     """T_t: as given, else the usual one."""
     if actuation.tracking_time is not None:
         return actuation.tracking_time
-    return usual_tracking_time(loop.controller, loop.plant.k)
-
-
-def usual_tracking_time(controller: Controller, k: float) -> float:
-    """sqrt(tau_I tau_D), or tau_I without derivative; for pure I action 1/|K_I k|, k the gain that it controls.
-
-    Infinite without integral action. In the time unit of the controller, whichever that is.
-    """
-    form = controller.to_parallel()
-    if form.Ki == 0:
-        return math.inf
-    if form.Kd * form.Ki > 0:
-        return math.sqrt(form.Kd / form.Ki)
-    return abs(form.Kp / form.Ki) if form.Kp else 1 / abs(form.Ki * k)
+    return tracking_time(loop.controller, loop.plant.k, loop.plant.integrators)
 
 
 class Driven:

@@ -34,9 +34,9 @@ from simc_core.simulation.actuator.actuation import (
     Stepped,
     affordable,
     stepped,
-    tracking_time,
+    tracking_time_in_use,
 )
-from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.actuator.one_step import Linear, whole_steps
 from simc_core.simulation.actuator.sampled import sampled
 
 # Columns of z behind x. ASKED: u at the start and the end of the step before if there were no limits, GIVEN: as it is.
@@ -58,12 +58,12 @@ def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Stepped:
 
 def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs) -> Stepped:
     system, theta = _measured(loop, form), loop.plant.theta
-    m = max(1, math.ceil(theta * STEPS / inputs.t_end)) if theta else 0
+    m = whole_steps(theta * STEPS / inputs.t_end) if theta else 0
     dt = theta / m if m else inputs.t_end / STEPS
     N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
     m, n = min(m, N), len(system.B)
     plant = Driven(system, system.ramp(dt), dt, theta, inputs)
-    law = _law(plant, form.Ki, dt / 2, tracking_time(loop, actuation), at_once=m == 0)
+    law = _law(plant, form.Ki, dt / 2, tracking_time_in_use(loop, actuation), at_once=m == 0)
     z = plant.rows(N + m, n + COLUMNS)
     ask, rate = _known(form, actuation, inputs, dt, N)
     z[:N, n + ASK0 : n + RATE], z[:N, n + RATE] = ask, dt / 2 * rate.sum(axis=1)

@@ -134,7 +134,8 @@ export class Tuning extends Instrument {
     if (!stable) return `tau_c ${text(tau_c)}: the loop is not stable`;
     return (
       `tau_c ${text(tau_c)}: Ms ${text(m.Ms)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
-      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_disturbance)}, overshoot ${text(100 * m.overshoot, 3)} percent`
+      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_disturbance)}, ` +
+      `overshoot ${text(100 * m.overshoot, 3)} percent`
     );
   }
 }
