@@ -101,7 +101,7 @@ def test_each_field_refuses_in_words_and_the_last_good_value_stays(field):
         ("filter", "11", "τF/τD must be ≤ 10, got 11"),
         ("tau_c", "-3", "τc exactly must be > 0, got −3"),
         ("tau_c", "1e12", "between 1e-09 and 1e+09, got 1e+12"),
-        ("u_max", "-0,1", "starts from rest at u = 0, got -inf and −0.1"),
+        ("u_max", "-0,1", "Highest u must be ≥ 0, where the loop is at rest, got −0.1"),
         ("sampling", "−2", "Sampling of the controller must be ≥ 0, got −2"),
         ("h", "-1", "Sampling allowed for in θ must be ≥ 0, got −1"),
         ("k", "0", "Gain k must not be zero"),
