@@ -56,9 +56,13 @@ class Actuation:
             bound = none if value == none else checks.real(name, value, -checks.LARGEST_GAIN, checks.LARGEST_GAIN)
             put(self, name, float(bound))
         if not self.u_min <= 0 <= self.u_max or self.u_min == self.u_max:
+            given = " and ".join(
+                f"{name} {bound:g}" if math.isfinite(bound) else f"no limit {name}"
+                for name, bound in (("u_min", self.u_min), ("u_max", self.u_max))
+            )
             raise InvalidParameter(
                 "u_min <= 0 <= u_max and u_min < u_max must hold, since the loop starts from rest at u = 0, "
-                f"got {self.u_min:g} and {self.u_max:g}"
+                f"got {given}"
             )
         if self.tracking_time is not None and self.tracking_time != math.inf:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
