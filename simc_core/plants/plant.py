@@ -168,8 +168,8 @@ class Plant:
         if self.theta == 0:
             return "stable, no dead time"
         if self.theta > slowest:
-            return "stable, delay dominant"
-        return "stable, lag dominant" if slowest >= 4 * self.theta else "stable, balanced"
+            return "stable, dead time dominant"
+        return "stable, lag dominant" if slowest >= 4 * self.theta else "stable, lag and dead time alike"
 
 
 def scaled(time: float, ratio: Fraction) -> float:

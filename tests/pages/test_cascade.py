@@ -265,7 +265,7 @@ def test_limits_that_leave_nothing_are_refused_in_words():
 
 
 def test_all_pairs_stand_beside_what_is_printed():
-    app = opened("Paper's pairs")
+    app = opened("Published pairs")
     indices, settings = (frame.value for frame in app.dataframe)
     assert list(indices["pair"]) == [row.name for row in ROWS]
     assert {re.match(r"\d+", name)[0] for name in indices["pair"]} == {str(i) for i in range(1, 11)}

@@ -1,4 +1,4 @@
-"""The paper's ten pairs, designed now, beside what is printed."""
+"""The published pairs, designed now, beside what is printed."""
 
 import streamlit as st
 
@@ -12,11 +12,11 @@ SETTINGS = ("k", "ki", "kd")
 
 def pairs_view() -> None:
     """Two tables, peaks with IAE and settings, and the reason for every difference."""
-    with st.spinner("Designing and judging all pairs"):
+    with st.spinner("Designing and evaluating all pairs"):
         found = judged_pairs()
     st.markdown(
-        "All pairs of [PSB], designed and judged now on the exact cascade. In brackets the printed number and how far "
-        "ours is from it; without brackets, nothing is printed that we could compare with."
+        "All pairs of [PSB], designed and evaluated now on the exact cascade. In brackets the printed number and how "
+        "far ours is from it; without brackets, nothing is printed that we could compare with."
     )
     st.dataframe([indices(each) for each in found], hide_index=True, width="stretch", height="content", key="indices")
     st.markdown("\n".join(f"- **{names}**: {symbols(note)}" for note, names in notes(found).items()))

@@ -38,7 +38,7 @@ def panels(studies: list[tuple[str, Study]]) -> None:
     start = times[0][1].t[times[0][1].d != 0][0]
     st.caption(
         f"Unit step of the set point at t = 0, unit step of the load at the plant input at t = {number(start)}; "
-        "time in the unit of your time constants. The loop is closed round the full plant."
+        "time in the unit of your time constants. The loop is closed around the full plant."
     )
 
 
