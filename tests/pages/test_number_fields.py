@@ -210,7 +210,7 @@ def test_what_was_read_stands_in_words_beside_the_text():
     assert "Read: gain 2.2, lag 180, dead time 20." in texts(app)
     app.text_input("plant_text_text").set_value("\\frob{2}/(s+1)").run()
     assert "\\frob" in app.error[0].value
-    assert "stays in use" in texts(app)
+    assert "the previous plant is used: gain 2.2, lag 180, dead time 20." in texts(app)
     assert "gain 2.2, lag 180, dead time 20" in texts(app)
 
 

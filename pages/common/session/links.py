@@ -109,7 +109,7 @@ def _changed(design: Design, name: str, text: str) -> Design:
     if len(text) > LONGEST_VALUE:
         raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
     if name not in PLACES:
-        raise SimcError("there is no parameter of this name")
+        raise SimcError("no parameter has this name")
     return put(design, name, _read(name, text))
 
 

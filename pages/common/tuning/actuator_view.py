@@ -179,7 +179,7 @@ def numbers_html(found: AsBuilt, sheet: Sheet) -> str:
 
 def cells_of(found: AsBuilt, numbers: BuiltNumbers, sheet: Sheet) -> list[tuple[str, str, str]]:
     """label, text, and what it means."""
-    cells = [("IAE as built · linear", _pair(numbers.IAE, numbers.IAE_linear), "∫|r − y| over the time shown")]
+    cells = [("IAE: as built · linear", _pair(numbers.IAE, numbers.IAE_linear), "∫|r − y| over the time shown")]
     if found.actuation.limited:
         cells += [
             (
@@ -196,7 +196,9 @@ def cells_of(found: AsBuilt, numbers: BuiltNumbers, sheet: Sheet) -> list[tuple[
         ]
     if found.actuation.noise:
         both = _pair(numbers.noise_y, numbers.noise_u)
-        cells.append(("Noise on y · u, std", both, "standard deviation of what the noise adds, over the time shown"))
+        cells.append(
+            ("Noise on y · u (std. dev.)", both, "standard deviation of what the noise adds, over the time shown")
+        )
     if found.actuation.h:
         cells.append(("Largest move of u", number(numbers.largest_move, DIGITS), "from one sample to the next"))
     return cells
