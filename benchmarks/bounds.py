@@ -1,7 +1,8 @@
 """`python -m benchmarks.bounds`: what one call or one page takes at most, for plants that were made to hurt.
 
-Each in a process of its own, after the same for a usual plant: MB of memory and seconds of the processor beyond that. The named plants
-are those that once took gigabytes; the random ones have times over six decades, light damping and unstable poles.
+Each in a process of its own, after the same for a usual plant: MB of memory and seconds of the processor beyond that.
+The named plants are those that once took gigabytes; the random ones have times over six decades, light damping and
+unstable poles.
 """
 
 import math
