@@ -142,4 +142,4 @@ def test_resonances_that_turn_many_times_within_the_dead_time_are_found():
 
 
 def test_of_a_neutral_loop_with_countless_unstable_poles_none_is_called_the_rightmost():
-    assert dominant_poles(Loop(Plant(1.0, 0.5, (2.0,)), SeriesPid(4.0, 3.0, 2.0))) == ()
+    assert dominant_poles(Loop(Plant(1.0, 0.5, (1.0,)), SeriesPid(0.8, 5.0, 5.0))) == ()
