@@ -43,7 +43,10 @@ def poles(study: Study) -> None:
     """Dominant closed-loop poles with their damping."""
     with st.expander("Dominant closed-loop poles"):
         rows = [pole_row(pole) for pole in dominant_poles(study.loop)]
-        st.dataframe(rows, hide_index=True, width="content")
+        if rows:
+            st.dataframe(rows, hide_index=True, width="content")
+        else:
+            st.caption("None can be shown of which it is certain that no other is further to the right.")
         st.caption(
             "Roots of $1 + L(s) = 0$, the rightmost of infinitely many; damping $\\zeta = -\\mathrm{Re}\\,s/|s|$. "
             "A pole that a zero of the controller cancels for set-point changes is still excited by load disturbances."
