@@ -10,7 +10,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.simulation.actuator.actuation import Actuation
 
 MOST_POINTS = 100_000
-ACTUATION = ("u_min", "u_max", "tracking_time", "noise", "seed", "h")
+ACTUATION = ("u_min", "u_max", "tracking_time", "noise", "seed", "h", "law")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,7 +23,7 @@ class Scenario:
     disturbance_time, t_end: None for half the horizon, and a horizon in which the
     slowest mode of the loop settles to 1 %.   points: instants on the grid; at a jump both limits are added.
     t: explicit increasing instants, returned exactly as given, right-hand limits at jumps.
-    u_min, u_max, tracking_time, noise, seed, h: see Actuation; by default the loop is linear.
+    u_min, u_max, tracking_time, noise, seed, h, law: see Actuation; by default the loop is linear.
     actuation: these together, what stands between controller and plant.
     """
 
@@ -43,6 +43,7 @@ class Scenario:
     disturbance2_time: float | None = None
     setpoint_ramp: float = 0.0
     disturbance_ramp: float = 0.0
+    law: str = "backward"
     actuation: Actuation = field(init=False, repr=False)
 
     def __post_init__(self):
