@@ -1,4 +1,4 @@
-"""The law of a sampled PID controller: what a computer does at t = 0, h, 2h, ... Simulation, margins and exports share it.
+"""The law of a sampled PID controller, at t = 0, h, 2h, ...; simulation, margins and exports share it.
 
     "backward"   backward differences
     "tustin"     bilinear transformation, nearer to the continuous controller; needs tau_F >= h/2 for derivative action
@@ -45,8 +45,10 @@ def backward(pid: ParallelPid, h: float, pull: float, s: State, r, y) -> State:
 def tustin(pid: ParallelPid, h: float, pull: float, s: State, r, y) -> State:
     """One sample by the bilinear transformation; without a filter there is no derivative action."""
     a, g = (2 * pid.tau_F - h) / (2 * pid.tau_F + h), h / (2 * pid.tau_F + h)
-    yF, rF = (a * s.yF + g * (y + s.y), a * s.rF + g * (r + s.r)) if pid.tau_F else (y, r)
+    yF, rF = a * s.yF + g * (y + s.y), a * s.rF + g * (r + s.r)
     dy, dr = a * s.dy + 2 * g / h * (y - s.y), a * s.dr + 2 * g / h * (r - s.r)
+    if not pid.tau_F:
+        yF, rF, dy, dr = y, r, 0 * y, 0 * r
     I = s.I + h / 2 * pid.Ki * (rF - yF + s.rF - s.yF) + pull * (s.u - s.v)  # noqa: E741
     v = pid.Kp * (pid.b * rF - yF) + I + pid.Kd * (pid.c * dr - dy)
     return State(y, r, yF, rF, dy, dr, I, v, v)

@@ -7,8 +7,8 @@ from scipy.linalg import expm
 from scipy.signal import tf2ss
 
 
-def driven(k, theta, lags, h, controller, r, d=lambda t: 0.0):
-    """y and u at 0, h, 2h, ...: controller(r, y) -> u, for the set points r; d(t) changes at samples and theta = 0 only.
+def driven(k, theta, lags, h, controller, r):
+    """y and u at 0, h, 2h, ...: controller(r, y) -> u, for the set points r.
 
     With theta = (n + f) h, 0 <= f < 1, the input of the plant is u[j - n - 1] for f h after sample j, then u[j - n].
     """
@@ -25,6 +25,6 @@ def driven(k, theta, lags, h, controller, r, d=lambda t: 0.0):
     for j, now in enumerate(r):
         outputs.append((C @ x).item())
         inputs.append(controller(now, outputs[-1]))
-        x = hold(x, inputs[j] + d(j * h), late)
-        x = hold(x, inputs[j + 1] + d(j * h), h - late)
+        x = hold(x, inputs[j], late)
+        x = hold(x, inputs[j + 1], h - late)
     return np.array(outputs), np.array(inputs[n + 1 :])
