@@ -15,6 +15,7 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.implementation.sampled_margins import longest_sampling_period, sampled_margins
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops

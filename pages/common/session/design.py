@@ -107,7 +107,7 @@ class Actuator:
     """How the loop is built: the fields of Actuation, None for no limit.
 
     tracking_time: None for the default.   h: sampling period of the controller as built; Tuning.h is the one that the
-    half rule allows for.
+    half rule allows for.   law: of the sampled controller.
     """
 
     u_min: float | None = None
@@ -116,6 +116,7 @@ class Actuator:
     noise: float = 0.0
     seed: int = 0
     h: float = 0.0
+    law: str = "backward"
 
     def __post_init__(self):
         put = object.__setattr__

@@ -6,7 +6,7 @@
     pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
-    u_min, u_max, T_t, noise, seed, sampling         the loop as built, only where it is not the default
+    u_min, u_max, T_t, noise, seed, sampling, law    the loop as built, only where it is not the default
     r, d, d_time, r_ramp, d_ramp                     set point and load in the figures
 
 Numbers are written with all their digits, so that a link opens the very same design.
@@ -31,7 +31,7 @@ FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "
 TEXTS = (
     *("rules", "form", "speed", "controller"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
-    *("method", "inner", "outer", "filter_outer"),
+    *("method", "inner", "outer", "filter_outer", "law"),
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core import checks
+from simc_core.controllers.discrete import known_law
 from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
@@ -40,7 +41,8 @@ class Actuation:
     u_min <= u <= u_max, infinite where there is no limit; u = 0, the state of rest, must be within.
     tracking_time: T_t, None for the default, math.inf for no anti-windup; shorter than a step of the controller it
     acts like that step.   noise: standard deviation of the measurement noise, a new value each step of the controller.
-    seed: of the noise.   h: sampling period of the controller, 0 if continuous.
+    seed: of the noise.   h: sampling period of the controller, 0 if continuous.   law: of a sampled controller, one of
+    controllers.discrete.LAWS.
     """
 
     u_min: float = -math.inf
@@ -49,6 +51,7 @@ class Actuation:
     noise: float = 0.0
     seed: int = 0
     h: float = 0.0
+    law: str = "backward"
 
     def __post_init__(self):
         put = object.__setattr__
@@ -62,6 +65,7 @@ class Actuation:
         put(self, "noise", checks.real("noise", self.noise, 0.0, checks.LARGEST_GAIN))
         put(self, "seed", checks.whole("seed", self.seed, 0, 2**32 - 1))
         put(self, "h", checks.optional_time("h", self.h))
+        known_law(self.law)
 
     @property
     def limited(self) -> bool:
