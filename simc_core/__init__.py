@@ -38,7 +38,7 @@ from simc_core.plants.plant import Plant
 from simc_core.plants.ultimate_point import Ultimate
 from simc_core.read_back import read_back
 from simc_core.reduction.half_rule import half_rule
-from simc_core.reduction.records import Candidate, Reduction, Share, Step
+from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets

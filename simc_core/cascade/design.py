@@ -17,7 +17,7 @@ from simc_core.controllers.forms import Controller, ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.notation import DIGITS, number, rounded_up
-from simc_core.optimal.speed_for_peak import fastest
+from simc_core.optimal.speed_for_peak import smallest_speed_with_peak
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.reduction.half_rule import half_rule
@@ -257,7 +257,7 @@ def _speed(name: str, given: float | None, Ms_name: str, Ms: float | None, at, s
     if given is not None:
         return checks.positive_time(name, given)
     Ms = checks.real(Ms_name, Ms, LOWEST_MS, HIGHEST_MS)
-    return fastest(at, Ms, scale, name, Ms_name)
+    return smallest_speed_with_peak(at, Ms, scale, name, Ms_name)
 
 
 FILTERS = {
@@ -332,5 +332,5 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
     def at(lambda_: float) -> NestedLoops:
         return NestedLoops((product,), (direct_synthesis(product, lambda_, kind),))
 
-    lambda_ = fastest(at, Ms, product.total_time or 1.0, "lambda", "Ms")
+    lambda_ = smallest_speed_with_peak(at, Ms, product.total_time or 1.0, "lambda", "Ms")
     return CascadeLoop(primary, secondary, at(lambda_).controllers[0], None)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.metrics.piece_zeros import SLOPE, Crossings, Turns, crossings
+from simc_core.metrics.piece_zeros import SLOPE, LevelCrossings, Turns, crossings
 from simc_core.simulation.collocation.elements import P
 from simc_core.simulation.collocation.pieces import ENDS
 
@@ -173,7 +173,7 @@ def _levels(steps: Steps, peak: np.ndarray) -> np.ndarray:
     return np.where(steps.target, LEVELS[0], LEVELS[1] * np.abs(peak))
 
 
-def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: Crossings) -> tuple[np.ndarray, np.ndarray]:
+def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: LevelCrossings) -> tuple[np.ndarray, np.ndarray]:
     """int |e| and int t |e| of each piece; e: (m, P), either sign."""
     half = steps.length / 2
     inner = np.add.reduce((INTEGRALS @ e[zeros.row].T).reshape(2, P + 2, -1) * zeros.basis, axis=1)
@@ -181,7 +181,7 @@ def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: Crossings) -> tuple[
     return half * plain, half * ((steps.begin + half) * plain + half * moment)
 
 
-def _times(steps: Steps, found: Crossings, levels: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _times(steps: Steps, found: LevelCrossings, levels: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Rise time, nan for a load step, and settling time: first and last passages through `levels`.
 
     right: y at the right ends; where the next piece begins it may jump through a level.

@@ -1,7 +1,7 @@
 """Many values of tau_c at once: everything the tuning page shows, as arrays of shape (len(tau_c), ...).
 
-All tunings of a plant share what the plant does: in time (simulation/march.py: one matrix product for all of them), and
-in frequency (one grid, one search, one certificate for all).
+All tunings of a plant share what the plant does: in time (simulation/one_delay/march.py: one matrix product for
+all of them), and in frequency (one grid, one search, one certificate for all).
 """
 
 import math
@@ -24,7 +24,7 @@ from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins_many
 from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share
 from simc_core.simulation.one_delay.march import march
-from simc_core.simulation.one_delay.unit_responses import Course
+from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.scenario import instants
 from simc_core.simulation.superposition import ramp_response
 
@@ -177,7 +177,7 @@ def _curves_and_metrics(
 
 def _courses(
     plant: Plant, controllers: Sequence[Controller], ends: Sequence[float | None]
-) -> Iterator[tuple[np.ndarray, Course]]:
+) -> Iterator[tuple[np.ndarray, UnitResponses]]:
     """Tunings that can march together, and their course; ends: None for one that goes to its rest."""
     forms = [controller.to_parallel() for controller in controllers]
     work, alike = 0, defaultdict(list)
@@ -203,7 +203,7 @@ def _check_work(elements: int, tunings: int, t_end: float) -> None:
         )
 
 
-def _at(course: Course, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:
+def _at(course: UnitResponses, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:
     values = course(t)
     if disturbance_time:
         values[:, :, 1] = course(t - disturbance_time)[:, :, 1]

@@ -25,7 +25,7 @@ SIGNALS = 4  # y, p, p', integral of p
 EYE = np.eye(P)
 
 
-class Measured:
+class ProcessMaps:
     """The chain of plant and measurement filter, and its maps for any length.
 
     Raises InvalidParameter: derivative action without filter on a plant whose response starts with a jump.

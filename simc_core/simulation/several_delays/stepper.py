@@ -46,7 +46,7 @@ largest = np.maximum.reduce  # along an axis; the method of arrays takes three t
 RECENT = 8  # loops whose steps are remembered
 
 
-class Steps:
+class NestedStepper:
     """Responses of a Network to unit steps of all its inputs at t = 0, from rest; `run` goes on where it stopped."""
 
     def __init__(self, system: Network):
@@ -69,7 +69,7 @@ class Steps:
         self.bases: dict[tuple[float, float], np.ndarray] = {}
         self.largest = np.full((self.signals, self.inputs), 1e-300)
         self.allowed, self.bounded = TAIL * self.largest, True
-        self.lock = Lock()  # one Steps may serve several sessions
+        self.lock = Lock()  # one NestedStepper may serve several sessions
 
     def run(self, t_end: float) -> Pieces:
         """On to t_end, or until an unstable response is beyond all bounds.
@@ -184,9 +184,9 @@ class Steps:
 
 
 @lru_cache(maxsize=RECENT)
-def steps_of(loops: NestedLoops) -> Steps:
-    """The Steps of these loops, the same object for all who ask: what one has run, the others need not."""
-    return Steps(network(loops))
+def steps_of(loops: NestedLoops) -> NestedStepper:
+    """The NestedStepper of these loops, the same object for all who ask: what one has run, the others need not."""
+    return NestedStepper(network(loops))
 
 
 def _unit(system: Network) -> float:
