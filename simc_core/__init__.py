@@ -22,6 +22,8 @@ from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import Performance, performance
 from simc_core.metrics.step_metrics import StepMetrics
 from simc_core.numbers import read_number, read_numbers
+from simc_core.optimal.robust_gains import gain_intervals, robust_region
+from simc_core.optimal.stability_limit import stability_limit
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,

@@ -177,8 +177,8 @@ class Plant:
         if self.theta == 0:
             return "stable, no dead time"
         if self.theta > self.slowest:
-            return "stable, delay dominant"
-        return "stable, lag dominant" if self.slowest >= 4 * self.theta else "stable, balanced"
+            return "stable, dead time dominant"
+        return "stable, lag dominant" if self.slowest >= 4 * self.theta else "stable, lag and dead time alike"
 
 
 def scaled(time: float, ratio: Fraction) -> float:

@@ -38,7 +38,7 @@ def steps(parts: Dynamics, trial: TrialReduction, h: float, candidates: tuple[Ca
         text = f"tau2 = {number(larger)} came out larger than tau1 = {number(smaller)}: the two change places."
         told.append(Step("swap", text, r"\tau_1 \leftrightarrow \tau_2", {"tau1": larger, "tau2": smaller}))
     if not trial.consistent:
-        text = "No delay is consistent with the rules T1-T3 here (they jump across it); the nearest is taken."
+        text = "No dead time is consistent with the rules T1-T3 here (they jump across it); the nearest is taken."
         told.append(Step("choice", text, rf"\theta \approx {latex_number(chosen.theta)}", {"theta": chosen.theta}))
     if len(candidates) > 1:
         told.append(_choice_step(candidates, chosen))
@@ -127,7 +127,9 @@ def _match_step(match: RuleApplied, theta: float) -> Step:
     T0, tau0, rest = (times_s(latex_number(value)) for value in (match.T0, match.tau0, match.rest))
     amounts = {"T0": match.T0, "tau0": match.tau0, "theta": theta, "rest": match.rest, "gain": match.gain}
     if match.rule == "1998 small":
-        text = f"1998 rule: the zero {number(match.T0)} is small (not above theta) and is subtracted from the delay."
+        text = (
+            f"1998 rule: the zero {number(match.T0)} is small (not above theta) and is subtracted from the dead time."
+        )
         return Step(match.rule, text, rf"{T0} + 1 \approx e^{{{T0}}}", amounts)
     integrator = math.isinf(match.tau0)
     below = "s" if integrator else f"{tau0} + 1"
@@ -218,12 +220,12 @@ def _choice_step(candidates: tuple[Candidate, ...], chosen: Candidate) -> Step:
     if math.isfinite(chosen.load_error):
         why = "at Ms = 1.6 around the full plant its SIMC loop has the smallest load error"
     elif chosen.Ms <= LARGEST_MS:
-        why = "it is the smallest delay > 0 whose SIMC loop (tau_c = theta) around the full plant has Ms <= 2"
+        why = "it is the smallest dead time > 0 whose SIMC loop (tau_c = theta) around the full plant has Ms <= 2"
     elif math.isfinite(chosen.Ms):
-        why = "no delay gives a SIMC loop with Ms <= 2 around the full plant; this one has the smallest Ms"
+        why = "no dead time gives a SIMC loop with Ms <= 2 around the full plant; this one has the smallest Ms"
     else:
-        why = "no delay gives a stable SIMC loop around the full plant; this is the most cautious one"
-    text = f"The rules T1-T3 hold for more than one delay: also for {others}. "
+        why = "no dead time gives a stable SIMC loop around the full plant; this is the most cautious one"
+    text = f"The rules T1-T3 hold for more than one effective dead time: also for {others}. "
     text += f"Chosen is theta = {_described(chosen)}: {why}."
     equation = r"\theta \in \{" + ",\\ ".join(latex_number(candidate.theta) for candidate in candidates) + r"\}"
     return Step("choice", text, equation, {"theta": chosen.theta, "Ms": chosen.Ms})

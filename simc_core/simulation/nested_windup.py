@@ -17,6 +17,7 @@ import numpy as np
 from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.simulation.actuator.actuation import rest_within
 from simc_core.simulation.actuator.one_step import ON_GRID, Linear, whole_steps
 from simc_core.simulation.rise import risen
 from simc_core.simulation.several_delays.network import Network, integral_states, network
@@ -41,8 +42,7 @@ def limited(
     Raises InvalidParameter: limits that do not enclose 0, unknown protection, a dead time too short for MOST_STEPS, an
     innermost block without dead time that starts with a jump.
     """
-    if not u_min <= 0 <= u_max or u_min == u_max:
-        raise InvalidParameter(f"u_min <= 0 <= u_max must hold, the state of rest, got {u_min:g} and {u_max:g}")
+    rest_within(u_min, u_max)
     if protection not in PROTECTIONS:
         raise InvalidParameter(f"protection must be one of {', '.join(PROTECTIONS)}, got {protection[:20]}")
     loops = loop.nested if isinstance(loop, CascadeLoop) else loop

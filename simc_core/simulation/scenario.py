@@ -33,9 +33,9 @@ class Scenario:
     t: np.ndarray | None = None
     disturbance2: float = 1.0
     disturbance2_time: float | None = None
-    actuation: Actuation = LINEAR
     setpoint_ramp: float = 0.0
     disturbance_ramp: float = 0.0
+    actuation: Actuation = LINEAR
 
     def __post_init__(self):
         put = object.__setattr__

@@ -88,8 +88,8 @@ def test_poles_and_zeros_against_python_control():
     ("plant", "kind"),
     [
         (Plant(1, 1, (8,)), "stable, lag dominant"),
-        (Plant(1, 1, (2,)), "stable, balanced"),
-        (Plant(1, 1, (0.2,)), "stable, delay dominant"),
+        (Plant(1, 1, (2,)), "stable, lag and dead time alike"),
+        (Plant(1, 1, (0.2,)), "stable, dead time dominant"),
         (Plant(1, 0, (2,)), "stable, no dead time"),
         (Plant(1, 1), "pure dead time"),
         (Plant(1), "pure gain"),

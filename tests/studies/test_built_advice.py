@@ -28,12 +28,18 @@ def test_a_set_point_that_the_actuator_cannot_hold():
     """r = 1 needs u = 1/2.2 = 0.455; with 0.4 y creeps to 0.88."""
     scenario = Scenario(1.0, 0.0, actuation=Actuation(u_max=0.4))
     (found,) = out_of_reach(SITE, scenario)
-    assert "needs u = 0.455, the limit is 0.4: it is never reached" in found.text
+    assert "r = 1 needs u = 0.455, the limit is 0.4: it is never reached" in found.text
     response = simulate(tuned(SITE).loop, scenario)
     assert response.y[-1] == pytest.approx(0.88, abs=1e-3)
     assert found.change["r"] == pytest.approx(0.88)
     assert out_of_reach(SITE, followed(scenario, found)) == ()
     assert out_of_reach(SITE, Scenario(1.0, 0.0, actuation=Actuation(u_max=0.5))) == ()
+
+
+def test_limits_are_told_on_the_scale_of_the_user():
+    """OP at 45 %, limits 0 and 46: 2.5 degrees need 1/2.2 * 2.5 = 1.14 % more."""
+    (found,) = out_of_reach(SITE, Scenario(2.5, 0.0, actuation=Actuation(u_min=-45.0, u_max=1.0)), "OP", 45.0)
+    assert found.text == "r = 2.5 needs OP = 46.1, the limit is 46: it is never reached."
 
 
 def test_a_load_that_the_actuator_cannot_hold():

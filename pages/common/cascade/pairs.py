@@ -1,4 +1,4 @@
-"""The paper's ten pairs, designed now, beside what is printed."""
+"""The published pairs, designed now, beside what is printed."""
 
 from collections.abc import Sequence
 from time import monotonic
@@ -19,8 +19,8 @@ REDRAWN = 0.3  # seconds between two drawings of a table that fills
 def pairs_view() -> None:
     """Two tables, peaks with IAE and settings, and the reason for every difference."""
     st.markdown(
-        "All pairs of [PSB], designed and judged now on the exact cascade. In brackets the printed number and how far "
-        "ours is from it; without brackets, nothing is printed that we could compare with."
+        "All pairs of [PSB], designed and evaluated now on the exact cascade. In brackets the printed number and how "
+        "far ours is from it; without brackets, nothing is printed that we could compare with."
     )
     found = _as_they_come()
     st.markdown("\n".join(f"- **{names}**: {symbols(note)}" for note, names in notes(found).items()))

@@ -6,7 +6,8 @@
     pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
-    u_min, u_max, T_t, noise, seed, sampling, r, d   the loop as built, only where it is not the default
+    u_min, u_max, T_t, noise, seed, sampling         the loop as built, only where it is not the default
+    r, d, d_time, r_ramp, d_ramp                     set point and load in the figures
 
 Numbers are written with all their digits, so that a link opens the very same design.
 """
@@ -108,7 +109,7 @@ def _changed(design: Design, name: str, text: str) -> Design:
     if len(text) > LONGEST_VALUE:
         raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
     if name not in PLACES:
-        raise SimcError("there is no parameter of this name")
+        raise SimcError("no parameter has this name")
     return put(design, name, _read(name, text))
 
 

@@ -15,9 +15,11 @@ from simc_core.loops.frequency_response import FrequencyResponse, frequency_resp
 from simc_core.loops.nested import CascadeLoop
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import performance
+from simc_core.notation import rounded_up
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import NestedResponse, Scenario, simulate
+from simc_core.studies.remedies import SLOWER
 
 USUAL_MS = 2.0  # what direct synthesis aims at where nothing is asked for
 KEPT = 16  # cascades of all sessions; direct synthesis searches 0.05 to 0.2 s, and every click on the page asks again
@@ -121,6 +123,23 @@ def designed(cascade: Cascade) -> CascadeDesign:
         lambda_outer=each.tau_c_outer,
         b=each.b,
     )
+
+
+def sounder(study: CascadeStudy) -> dict[str, float]:
+    """Larger tau_c (or lambda) that were tried and give a sound cascade: of the loop to blame, else of both; or {}."""
+    inner, outer = study.speeds
+    inside = study.stability.inner.verdict != "stable"
+    blamed = {"tau_c_inner": inner} if inside else {"tau_c_outer": outer}
+    for loops in (blamed, {"tau_c_inner": inner, "tau_c_outer": outer}):
+        for factor in SLOWER:
+            change = {name: rounded_up(factor * speed) for name, speed in loops.items()}
+            try:
+                found = designed(replace(study.cascade, **change))
+            except SimcError:
+                continue
+            if stability(found.loop).sound:
+                return change
+    return {}
 
 
 def time_responses(study: CascadeStudy) -> tuple[tuple[str, NestedResponse], ...]:

@@ -56,11 +56,7 @@ class Actuation:
             value = getattr(self, name)
             bound = none if value == none else checks.real(name, value, -checks.LARGEST_GAIN, checks.LARGEST_GAIN)
             put(self, name, float(bound))
-        if not self.u_min <= 0 <= self.u_max or self.u_min == self.u_max:
-            raise InvalidParameter(
-                "u_min <= 0 <= u_max and u_min < u_max must hold, since the loop starts from rest at u = 0, "
-                f"got {self.u_min:g} and {self.u_max:g}"
-            )
+        rest_within(self.u_min, self.u_max)
         if self.tracking_time is not None and self.tracking_time != math.inf:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
         put(self, "noise", checks.real("noise", self.noise, 0.0, checks.LARGEST_GAIN))
@@ -76,6 +72,16 @@ class Actuation:
     def linear(self) -> bool:
         """Whether the exact engine of linear loops does the same."""
         return not self.limited and self.noise == 0 and self.h == 0
+
+
+def rest_within(u_min: float, u_max: float) -> None:
+    """Raises InvalidParameter unless u = 0, where the loop is at rest, is within the limits, and something else too."""
+    if u_min > 0:
+        raise InvalidParameter(f"u_min must be <= 0, where the loop is at rest, got {u_min:g}")
+    if u_max < 0:
+        raise InvalidParameter(f"u_max must be >= 0, where the loop is at rest, got {u_max:g}")
+    if u_min == u_max:
+        raise InvalidParameter(f"u_max must be > u_min = {u_min:g}, got {u_max:g}")
 
 
 @dataclass(frozen=True, slots=True)

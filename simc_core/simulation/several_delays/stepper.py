@@ -32,7 +32,9 @@ FEWEST_BITS = 30  # lengths below 2^-FEWEST_BITS of the first are rounding
 FLOOR = 1e-4  # a signal is judged by this part of the largest one at least: zero is zero within rounding
 SHARE = 1e-2  # and by this part of its largest response to any of the inputs
 ROUNDING = 1e-14
-MOST_ELEMENTS = 40_000
+MOST_ELEMENTS = 15_000  # 80 us each
+MOST_VALUES = 5_000_000  # numbers in all elements of a loop: 40 MB, of each of the RECENT ones
+MOST_MAPS = 200  # remembered; 0.1 MB each, 0.4 MB of six loops
 LARGEST = 1e150
 GROWTH = 1.02  # of a signal before its size is taken anew
 DIGITS = 11  # behind the point: lengths and places that agree to so many are the same
@@ -53,6 +55,7 @@ class NestedStepper:
         self.inputs, self.signals = system.E.shape[1], self.m + len(system.Co)
         self.t, self.x, self.steps = 0.0, np.zeros((n, self.inputs)), np.eye(self.inputs)
         self.edges, self.thetas = [0.0], system.theta.tolist()
+        self.most = min(MOST_ELEMENTS, MOST_VALUES // (self.signals * P * self.inputs))
         self.coefficients = np.zeros((ROOM_AT_FIRST, self.signals, P, self.inputs))  # of (z, o), Chebyshev
         self.count = 0
         self.summands = np.abs(np.concatenate([system.C, system.Co]))  # a large kick leaves few digits of u
@@ -114,6 +117,8 @@ class NestedStepper:
         key = float(f"{length:.{DIGITS}e}")
         made = self.maps.get(key)
         if made is None:
+            if len(self.maps) >= MOST_MAPS:
+                self.maps.clear()
             made = self.maps[key] = delay_map(self.system, key)
         known = np.concatenate([self.x, self._history(length), self.steps])
         values = (made.coefficients @ known).reshape(self.signals, P, self.inputs)
@@ -162,9 +167,9 @@ class NestedStepper:
         return found
 
     def _keep(self, values: np.ndarray, x: np.ndarray, end: float) -> None:
-        if self.count >= MOST_ELEMENTS:
+        if self.count >= self.most:
             raise InvalidParameter(
-                f"the horizon must need at most {MOST_ELEMENTS} elements, got more by t = {self.t:.3g}: "
+                f"the horizon must need at most {self.most} elements, got more by t = {self.t:.3g}: "
                 "the loop oscillates too fast for it"
             )
         if self.count == len(self.coefficients):

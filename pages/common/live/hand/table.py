@@ -113,9 +113,8 @@ def setup(subject: Subject, grid: Grid, present: Study, behind: Sequence[tuple[s
         "knobs": knobs(subject),
         "plant": plant,
         "controller": _controller(subject.controller),
-        "steps": {"r": 1.0, "d": 1.0, "load": grid.load},
+        "steps": grid.steps,
         "t": grid.t.tolist(),
-        "load": grid.load,
         "omega": grid.omega.tolist(),
         **judgement(CELLS),
         "pins": [{"name": letter} for letter, _ in behind],
@@ -180,4 +179,6 @@ def allowed(subject: Subject, values: dict) -> dict[str, float]:
 
 def setup_name(subject: Subject, grid: Grid, behind: Sequence[tuple[str, Study]]) -> str:
     """Same name, same setup."""
-    return name_of(subject, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind])
+    return name_of(
+        subject, grid.excitation, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind]
+    )
