@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from html import escape
 
 from pages.common.parts.quantities import QUANTITIES
+from pages.common.parts.units import unit_of, with_plain_unit
+from pages.common.session import state
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.bands import band_of
 
@@ -46,12 +48,14 @@ def reading(name: str, value: float, label: str = "") -> Reading:
         exact = "infinite: no limit"
     if math.isnan(value):
         exact = "no number: the loop keeps an offset (no integral action), or does not come to rest in reach"
-    return Reading(label or quantity.label, quantity.text(value), exact, quantity.meaning)
+    unit = unit_of(quantity.unit, state.design_now().sheet)
+    return Reading(with_plain_unit(label or quantity.label, unit), quantity.text(value), exact, quantity.meaning)
 
 
 def pair(label: str, names: tuple[str, str], values: tuple[float, float]) -> Reading:
     """Two quantities in one cell."""
     first, second = (reading(name, value) for name, value in zip(names, values, strict=True))
+    label = with_plain_unit(label, unit_of(QUANTITIES[names[0]].unit, state.design_now().sheet))
     return Reading(label, f"{first.text} · {second.text}", f"{first.exact} · {second.exact}", second.meaning)
 
 
