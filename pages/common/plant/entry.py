@@ -21,7 +21,8 @@ from simc_core.plants.examples import EXAMPLES
 
 WAYS = ("Text", "k, θ, τ", "Step test", "Factors", "Polynomials", "Examples")
 STYLE = """<style>
-:is(.st-key-plant_way, .st-key-Ga_way, .st-key-Gb_way) button {padding-inline: 0.5rem} /* side by side */
+:is(.st-key-plant_way, .st-key-Ga_way, .st-key-Gb_way) button {padding-inline: 0.3rem} /* side by side */
+:is(.st-key-plant_step_kind, .st-key-Ga_step_kind, .st-key-Gb_step_kind) button {padding-inline: 0.5rem}
 </style>"""
 
 

@@ -27,7 +27,7 @@ HEIGHT = 330  # px
 DIGITS = 3
 NARROW = "@media (max-width: 640px)"
 STYLE = f"""<style>
-.st-key-actuator_inputs {{display: grid; grid-template-columns: repeat(4, 1fr); gap: 0.25rem 0.75rem}}
+.st-key-actuator_inputs {{display: grid; grid-template-columns: repeat(3, 1fr); gap: 0.25rem 0.75rem}}
 .st-key-actuator_inputs label p {{white-space: nowrap}}
 .strip.built {{grid-template-columns: repeat(auto-fit, minmax(9.5rem, 1fr))}}
 {NARROW} {{.st-key-actuator_inputs, .strip.built {{grid-template-columns: 1fr 1fr}}}}
@@ -111,7 +111,7 @@ def _inputs(design: Design) -> None:
         _limit("Highest", "u_max", design, under)
         _number("Tracking time", "T_t", TRACKING, "automatic", unit="time", under=under)
         _number("Sampling of the controller", "sampling", SAMPLING, unit="time", under=under)
-        _number("Measurement noise (std. dev.)", "noise", NOISE, unit="PV", under=under)
+        _number("Noise (std. dev.)", "noise", NOISE, unit="PV", under=under)
         _number("Random seed", "seed", "The same number gives the same noise.", under=under)
     _range_of_OP(design)
 

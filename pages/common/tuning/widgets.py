@@ -45,6 +45,7 @@ SETTINGS_STYLE = """<style>
 .settings {display: flex; flex-wrap: wrap; gap: 0.1rem 1.25rem; font-variant-numeric: tabular-nums}
 .settings small {display: block; font-size: 0.8rem; line-height: 1.2}
 .settings b {font-size: 1.5rem; font-weight: 600; line-height: 1.25}
+.settings .action b {font-size: 1rem; line-height: 1.9}
 </style>"""
 
 
@@ -150,7 +151,8 @@ def settings_html(controller: Controller, sheet: Sheet) -> str:
         for name, value in sizes(controller).items()
         if math.isfinite(value)
     ]
-    cells.append(f'<div title="{ACTIONS[controller.action]}"><small>action</small><b>{controller.action}</b></div>')
+    action = controller.action
+    cells.append(f'<div class="action" title="{ACTIONS[action]}"><small>action</small><b>{action}</b></div>')
     return f'<div class="settings" role="group" aria-label="Settings">{"".join(cells)}</div>'
 
 
