@@ -51,7 +51,14 @@ def unit_of(what: str, sheet: Sheet) -> str:
     units = {"time": sheet.time_unit, "PV": sheet.PV_unit, "OP": sheet.OP_unit}
     if not all(units[name] for name in re.findall("time|PV|OP", what)):
         return ""
-    return re.sub("time|PV|OP", lambda found: units[found[0]], what)
+    if what in units:
+        return units[what]
+    return re.sub("time|PV|OP", lambda found: _factor(units[found[0]]), what)
+
+
+def _factor(unit: str) -> str:
+    """A unit within another one: m3/h in brackets, so that (m3/h)/m is read in one way."""
+    return f"({unit})" if "/" in unit else unit
 
 
 def time_text(value: float, sheet: Sheet, digits: int = 4) -> str:

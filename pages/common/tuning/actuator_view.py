@@ -95,7 +95,7 @@ def _inputs(design: Design) -> None:
         _limit("Highest", "u_max", design, under)
         _number("Tracking time", "T_t", TRACKING, "automatic", unit="time", under=under)
         _number("Sampling of the controller", "sampling", SAMPLING, unit="time", under=under)
-        _number("Measurement noise (std. dev.)", "noise", NOISE, unit="PV", under=under)
+        _number("Noise (std. dev.)", "noise", NOISE, unit="PV", under=under)
         _number("Random seed", "seed", "The same number gives the same noise.", under=under)
     _range_of_OP(design)
 

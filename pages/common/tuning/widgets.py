@@ -131,7 +131,8 @@ def settings_html(controller: Controller, sheet: Sheet) -> str:
         for name, value in sizes(controller).items()
         if math.isfinite(value)
     ]
-    cells.append(f'<div title="{ACTIONS[controller.action]}"><small>action</small><b>{controller.action}</b></div>')
+    action = controller.action
+    cells.append(f'<div class="action" title="{ACTIONS[action]}"><small>action</small><b>{action}</b></div>')
     return f'<div class="settings" role="group" aria-label="Settings">{"".join(cells)}</div>'
 
 

@@ -17,13 +17,11 @@ export function strip(element, { cells, bands, solved }, metrics, exact, why) {
       const value = Number.isNaN(metrics[name]) ? why || "not known" : factor * metrics[name];
       const title = exact ? value : "interpolated while you drag; exact when you let go";
       const look = peak ? `peak ${why ? "alarm" : tone}` : "";
-      const words = escaped(
-        [both ? `${label}, low · high` : label, LABELS[unit] && `[${LABELS[unit]}]`].filter(Boolean).join(" "),
-      );
       return (
         `<div data-figure="${name}" class="${look}" title="${title}\n${meaning}">` +
-        `<small>${words}</small>` +
-        `<b>${both ? `${shown("GM_lower", 1)} · ` : ""}${shown(name, factor)}</b>${more}</div>`
+        `<small>${both ? `${label}, low · high` : label}</small>` +
+        `<b>${both ? `${shown("GM_lower", 1)} · ` : ""}${shown(name, factor)}</b> ` +
+        `<i>${escaped(LABELS[unit] || "")}</i>${more}</div>`
       );
     })
     .join("");
