@@ -2,14 +2,29 @@
 
 from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_cascade
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
-from simc_core.certificate.verdict import Stability, count_unstable, stability, stability_many
+from simc_core.certificate.verdict import NestedStability, Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
-from simc_core.errors import FormError, InvalidParameter, NotReducible, NotStable, ParseError, RuleEnds, SimcError
-from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
+from simc_core.errors import (
+    FormError,
+    InvalidParameter,
+    NotReducible,
+    NotStable,
+    OutOfDomain,
+    ParseError,
+    RuleEnds,
+    SimcError,
+    WrongType,
+)
+from simc_core.implementation.sampled_margins import longest_sampling_period, sampled_margins
+from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
+from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.metrics.nested_performance import NestedPerformance
-from simc_core.metrics.performance import Performance, StepMetrics, performance
+from simc_core.metrics.performance import Performance, performance
+from simc_core.metrics.step_metrics import StepMetrics
 from simc_core.numbers import read_number, read_numbers
+from simc_core.optimal.robust_gains import gain_intervals, robust_region
+from simc_core.optimal.stability_limit import stability_limit
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,
@@ -20,12 +35,16 @@ from simc_core.plants.models import (
 )
 from simc_core.plants.parse import parse_plant
 from simc_core.plants.plant import Plant
+from simc_core.plants.ultimate_point import Ultimate
 from simc_core.read_back import read_back
 from simc_core.reduction.half_rule import half_rule
-from simc_core.reduction.records import Candidate, Reduction, Share, Step
+from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
+from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
-from simc_core.sensitivity.margins import Margins, crossings, margins, margins_many, margins_of
-from simc_core.sensitivity.nested_margins import NestedStability
-from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
+from simc_core.sensitivity.margins import crossings, margins, margins_many
+from simc_core.sensitivity.margins_of_response import Margins, margins_of
+from simc_core.sensitivity.ultimate import ultimate
+from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.studies.sweep import Sweep, sweep
+from simc_core.studies.tune import tune

@@ -9,6 +9,10 @@ class InvalidParameter(SimcError):
     """A number outside its bounds, or fields that do not fit together."""
 
 
+class WrongType(InvalidParameter, TypeError):
+    """Something of another type than the one asked for."""
+
+
 class ParseError(SimcError):
     """Text that is not a transfer function; `position` is the index of the fault in `text`."""
 
@@ -28,6 +32,10 @@ class FormError(SimcError):
 
 class NotStable(SimcError):
     """A quantity was asked for that only a stable loop has."""
+
+
+class OutOfDomain(SimcError):
+    """A tuning rule was asked for a model, or a setting of its own, that it is not made for."""
 
 
 class RuleEnds(InvalidParameter):

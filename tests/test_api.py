@@ -11,10 +11,15 @@ from simc_core import (
     CascadeLoop,
     FirstOrderDelay,
     Loop,
+    NestedLoops,
     NotStable,
     Plant,
     Scenario,
+    SeriesPid,
+    SimcError,
+    crossings,
     direct_synthesis,
+    frequency_response,
     margins,
     performance,
     simc,
@@ -126,3 +131,27 @@ def test_no_metrics_of_an_unstable_loop():
 
 def test_direct_synthesis_needs_a_process_and_lambda_only():
     assert hasattr(direct_synthesis(SECONDARY, 0.5), "response")
+
+
+OF_ANY_LOOP = (stability, margins, crossings, performance, simulate, lambda loop: frequency_response(loop, [1.0]))
+
+
+@pytest.mark.parametrize("function", OF_ANY_LOOP)
+@pytest.mark.parametrize("given", [Plant(1, 1, (8,)), SeriesPid(4, 8), None, "loop"])
+def test_what_is_no_loop_is_refused_in_words(function, given):
+    with pytest.raises(TypeError, match="loop must be a Loop, CascadeLoop or NestedLoops, got") as refused:
+        function(given)
+    assert isinstance(refused.value, SimcError)
+
+
+def test_crossings_of_one_nested_loop_and_of_a_cascade_are_those_of_the_loops_they_stand_for():
+    inner, outer, Gb, Ga = SeriesPid(1.5, 2.0), SeriesPid(0.5, 6.0), Plant(1, 0.5, (2,)), Plant(2, 1, (6,))
+    single = crossings(Loop(Ga, outer))
+    alone = crossings(NestedLoops((Ga,), (outer,)))
+    assert alone.gain_omega == pytest.approx(single.gain_omega)
+    assert alone.phase_omega == pytest.approx(single.phase_omega)
+    found = crossings(CascadeLoop(Ga, Gb, outer, inner))
+    s = 1j * found.gain_omega  # L of the outer loop written out
+    Lb = Gb.response(s) * inner.response(s)
+    assert abs(outer.response(s) * Ga.response(s) * Lb / (1 + Lb)) == pytest.approx(1.0)
+    assert found.gain_omega.size > 0

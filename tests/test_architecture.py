@@ -48,6 +48,13 @@ def test_no_imports_inside_functions_and_no_star(path):
     assert not [n for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) and n.names[0].name == "*"]
 
 
+@pytest.mark.parametrize("path", [*CORE, *PAGES], ids=name)
+def test_functions_have_names_and_are_found_by_them(path):
+    """No dispatch through functions named _: who reads `margins(cascade)` finds in `margins` what it does."""
+    assert "functools.singledispatch" not in imported(path)
+    assert not [n for n in ast.walk(ast.parse(path.read_text())) if isinstance(n, ast.FunctionDef) and n.name == "_"]
+
+
 @pytest.mark.parametrize("path", PAGES, ids=name)
 def test_numbers_are_typed_in_one_kind_of_field(path):
     """Streamlit's own number fields drop a decimal comma: parts/number_field.py is for all."""
@@ -61,3 +68,15 @@ def test_no_number_field_of_the_browser_either():
 
 def test_the_entry_point_only_starts_the_router():
     assert len((ROOT / "app.py").read_text().splitlines()) <= 25
+
+
+def test_lines_of_scripts_are_as_short_as_those_of_python():
+    scripts = [file for file in (ROOT / "pages").rglob("*.js") if "vendor" not in file.parts]
+    assert len(scripts) > 20
+    long = [
+        f"{file.name}:{n}"
+        for file in scripts
+        for n, line in enumerate(file.read_text().split("\n"), 1)
+        if len(line) > 120
+    ]
+    assert not long

@@ -11,7 +11,8 @@ from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_casc
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import performance
 from simc_core.plants.plant import Plant
-from simc_core.sensitivity.margins import Margins, margins
+from simc_core.sensitivity.margins import margins
+from simc_core.sensitivity.margins_of_response import Margins
 
 ROUNDED = "The authors round lambda; the exact Ms moves the settings by up to 1.2 %."
 
@@ -152,12 +153,7 @@ class Judged:
         return max(abs(value / wanted - 1) if wanted else abs(value) for value, wanted in pairs)
 
 
-@lru_cache(maxsize=1)  # nothing in it can change, and it takes a second or two
-def judged_pairs() -> tuple[Judged, ...]:
-    """All rows, designed and judged now."""
-    return tuple(judged(row) for row in ROWS)
-
-
+@lru_cache(maxsize=len(ROWS))  # nothing in it can change, and it takes a tenth of a second
 def judged(row: PairRow) -> Judged:
     """The design of a row, and what its exact cascade does."""
     design = designed(row)

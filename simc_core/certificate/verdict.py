@@ -10,12 +10,16 @@ first-order plant, |L| does not vanish at high frequency. Above |L(inf)| = 1 the
 poles; below it the count is finite, and `Stability.neutral` shows how near the loop is to that limit. With
 several dead times |L(inf)| is the sum over the terms: stability for all ratios of the dead times (Hale and
 Verduyn Lunel 1993, strong stability).
+
+Nested loops. The verdict is on 1 + A_1 + ... + A_N (loops/nested.py). A loop whose inner loop is unstable on its own
+may be stable as a whole: the outer controller then holds up an inner loop that falls over as soon as the outer one
+saturates or is switched to manual. So `NestedStability.inner` is the verdict on the loop inside.
 """
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache, singledispatch
+from functools import lru_cache
 from typing import Literal
 
 from simc_core.algebra.factors import Factored
@@ -23,6 +27,8 @@ from simc_core.certificate.characteristic import Characteristic, characteristic,
 from simc_core.certificate.winding import winding, windings
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
+from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
+from simc_core.loops.well_posed import require_well_posed
 
 SAME = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
@@ -44,8 +50,25 @@ class Stability:
     neutral: float = 0.0
 
 
-@singledispatch
-def stability(loop: Loop) -> Stability:
+@dataclass(frozen=True, slots=True)
+class NestedStability:
+    """As Stability, of all loops closed; inner: of the next loop inside on its own, None where there is none."""
+
+    verdict: Verdict
+    unstable_poles: int | float
+    neutral: float
+    inner: "Stability | NestedStability | None"
+
+    @property
+    def sound(self) -> bool:
+        """Stable, and so is every loop inside: margins mean something."""
+        inside = self.inner is None or (
+            self.inner.sound if isinstance(self.inner, NestedStability) else self.inner.verdict == "stable"
+        )
+        return self.verdict == "stable" and inside
+
+
+def stability(loop: Loop | CascadeLoop | NestedLoops) -> "Stability | NestedStability":
     """Whether a loop is stable, by the argument principle, with its dead time exact.
 
     Parameters
@@ -62,6 +85,8 @@ def stability(loop: Loop) -> Stability:
     ------
     InvalidParameter
         The loop is ill-posed: L(inf) = -1 without dead time.
+    WrongType
+        `loop` is no loop.
 
     Examples
     --------
@@ -71,13 +96,29 @@ def stability(loop: Loop) -> Stability:
     >>> [stability(Loop(Plant(1, 1, integrators=1), SeriesPid(Kc, float("inf")))).verdict for Kc in (1.57, 1.58)]
     ['stable', 'unstable']
     """
-    return remembered(loop)
+    match loop:
+        case Loop():
+            return remembered(loop)
+        case NestedLoops():
+            return remembered_nested(loop)
+        case CascadeLoop():
+            return remembered_nested(loop.nested)
+        case _:
+            raise not_a_loop(loop)
 
 
 @lru_cache(maxsize=64)
 def remembered(loop: Loop) -> Stability:
     """margins, performance and pages all ask for the same few loops."""
     return count_unstable([loop.L])
+
+
+@lru_cache(maxsize=64)  # margins, metrics and whoever shows the loop all ask for it
+def remembered_nested(loop: NestedLoops) -> NestedStability:
+    """Verdict on all loops closed, and on those inside."""
+    found = count_unstable(loop.terms)
+    inner = remembered_nested(loop.inside) if loop.inside else None
+    return NestedStability(found.verdict, found.unstable_poles, found.neutral, inner)
 
 
 def stability_many(loops: Sequence[Loop]) -> list[Stability]:
@@ -143,8 +184,8 @@ def _verdicts(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
 def _at_infinity(f: Characteristic) -> Stability | None:
     """The verdict where |L(inf)| decides on it. Raises InvalidParameter for ill-posed loops."""
     neutral = f.neutral
-    if f.delayed == 0 and abs(f.limit) <= SAME:
-        raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: the loop is ill-posed")
+    if f.delayed == 0:
+        require_well_posed(f.limit)
     if abs(neutral - 1) <= SAME:
         return Stability("marginal", 0, neutral)
     return Stability("unstable", math.inf, neutral) if neutral > 1 else None

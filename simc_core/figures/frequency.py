@@ -9,10 +9,10 @@ from simc_core.figures import palette
 from simc_core.figures.curves import BodeCurve, bode_curve
 from simc_core.figures.palette import Figure, Trace
 from simc_core.loops.frequency_grid import omega_grid
-from simc_core.loops.loop import FrequencyResponse
+from simc_core.loops.frequency_response import FrequencyResponse
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.crossings import Crossings
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 
 PHASE_VIEW = -540.0  # degrees; dead time winds on for ever, the eye need not follow it
 GAIN_VIEW = (1e-3, 1e3)  # widest span of |L| drawn round 1

@@ -12,9 +12,9 @@ import numpy as np
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.loops.frequency_grid import omega_grid
-from simc_core.loops.loop import FrequencyResponse
+from simc_core.loops.frequency_response import FrequencyResponse
 from simc_core.plants.plant import Plant
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.bands import CIRCLES
 
 REFERENCES = tuple(zip(CIRCLES, (110.0, 160.0, 60.0), strict=True))  # and where the label interrupts, degrees

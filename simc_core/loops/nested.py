@@ -15,13 +15,11 @@ A controller may be missing: y_i is then not fed back, C_i = 1 and T_i = G_i T_{
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from simc_core import checks
 from simc_core.algebra.factors import Factored, factors
 from simc_core.controllers.forms import Controller
-from simc_core.errors import InvalidParameter
-from simc_core.loops.loop import FrequencyResponse, Loop, at_frequencies, frequency_response
+from simc_core.errors import InvalidParameter, WrongType
+from simc_core.loops.loop import Loop
 from simc_core.plants.plant import Plant
 
 MOST_LOOPS = 6
@@ -110,30 +108,6 @@ class CascadeLoop:
         return self.nested
 
 
-def closed_inside(loops: NestedLoops, s: np.ndarray) -> np.ndarray:
-    """Whatever the outermost controller sees before the block next to it: T of the loop inside, 1 if none."""
-    if loops.inside is None:
-        return np.ones_like(s)
-    L = open_loop(loops.inside, s)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return np.where(np.abs(L) > 1, 1 / (1 + 1 / L), L / (1 + L))
-
-
-def open_loop(loops: NestedLoops, s: np.ndarray) -> np.ndarray:
-    """L(s) of the outermost loop with all the others closed; complex, shape of s."""
-    return loops.own(s) * closed_inside(loops, s)
-
-
-@frequency_response.register
-def _(loop: NestedLoops, omega) -> FrequencyResponse:
-    """Of the outermost loop; GS is from the disturbance at the input of the outermost block to its output."""
-    omega = at_frequencies(omega)
-    s = 1j * omega
-    L, C, G = open_loop(loop, s), loop.controllers[-1].factored(s), loop.blocks[-1].factored(s)
-    S = 1 / (1 + L)
-    return FrequencyResponse(omega, L, S, L * S, C * S, G * S)
-
-
-@frequency_response.register
-def _(loop: CascadeLoop, omega) -> FrequencyResponse:
-    return frequency_response(loop.nested, omega)
+def not_a_loop(given) -> WrongType:
+    """The refusal of whatever works on all kinds of loops."""
+    return WrongType(f"loop must be a Loop, CascadeLoop or NestedLoops, got {type(given).__name__}")

@@ -6,9 +6,8 @@ import numpy as np
 
 from simc_core.certificate.verdict import stability
 from simc_core.errors import NotStable
-from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.metrics.performance import StepMetrics, metrics_of, performance
-from simc_core.metrics.step_metrics import Steps
+from simc_core.loops.nested import NestedLoops
+from simc_core.metrics.step_metrics import StepMetrics, Steps, metrics_of
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.simulate_nested import time_scale
@@ -38,13 +37,8 @@ class NestedPerformance:
         return self.disturbances[0]
 
 
-@performance.register
-def _(loop: CascadeLoop) -> NestedPerformance:
-    return performance(loop.nested)
-
-
-@performance.register
-def _(loop: NestedLoops) -> NestedPerformance:
+def nested_performance(loop: NestedLoops) -> NestedPerformance:
+    """performance of nested loops. Raises NotStable."""
     verdict = stability(loop)
     if verdict.verdict != "stable":
         raise NotStable(f"step metrics exist for stable loops only, got a cascade that is {verdict.verdict}")

@@ -1,43 +1,25 @@
 """Step metrics over an infinite horizon, from the piecewise polynomials of the engine (metrics.py).
 
-A response is followed until y and u stay within REST = 1e-10 of their largest value from where they end (pace.py).
-Truncation error: what a decaying mode still adds behind that, REST times its time constant. A loop that needs more
-than march.MOST_TO_REST elements to come to rest is too close to its stability limit for that, and is told so.
+A response is followed until y and u stay within REST = 1e-10 of their largest value from where they end
+(one_delay/step_control.py). Truncation error: what a decaying mode still adds behind that, REST times its time
+constant. A loop that needs more than limits.MOST_TO_REST elements to come to rest is too close to its stability limit
+for that, and is told so.
 """
 
 from dataclasses import dataclass
-from functools import singledispatch
 
 import numpy as np
 
 from simc_core.certificate.verdict import stability
 from simc_core.errors import NotStable
 from simc_core.loops.loop import Loop
-from simc_core.metrics.step_metrics import Steps, measures
-from simc_core.simulation.one_delay.unit_responses import Course
+from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
+from simc_core.metrics.nested_performance import NestedPerformance, nested_performance
+from simc_core.metrics.step_metrics import StepMetrics, Steps, metrics_of
+from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.simulate import settled
 
 OFFSET = 1e-7
-
-
-@dataclass(frozen=True, slots=True)
-class StepMetrics:
-    """For a unit step. Times in the user's unit, from the step on.
-
-    overshoot: of a set-point step, beyond 1 as a fraction; of a load step, beyond 0 on the other side as a fraction of
-    the peak.   peak, peak_time: largest y of a set-point step, largest abs(y) of a load step (with its sign).
-    rise_time: 10 % to 90 %, nan for a load step.   settling_time: within 2 % of the step, of the peak for a load step.
-    """
-
-    IAE: float
-    ISE: float
-    ITAE: float
-    TV: float
-    overshoot: float
-    peak: float
-    peak_time: float
-    rise_time: float
-    settling_time: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +30,7 @@ class Performance:
     disturbance: StepMetrics
 
 
-@singledispatch
-def performance(loop: Loop) -> Performance:
+def performance(loop: Loop | CascadeLoop | NestedLoops) -> Performance | NestedPerformance:
     """IAE, overshoot, settling time and the like, of unit steps of set point and load; the dead time is exact.
 
     Parameters
@@ -66,6 +47,8 @@ def performance(loop: Loop) -> Performance:
     ------
     NotStable
         The loop is not stable, or an offset remains, so that the integrals diverge.
+    WrongType
+        `loop` is no loop.
 
     Examples
     --------
@@ -75,6 +58,18 @@ def performance(loop: Loop) -> Performance:
     >>> round(performance(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8))).disturbance.IAE, 6)
     2.0
     """
+    match loop:
+        case Loop():
+            return _of_single(loop)
+        case NestedLoops():
+            return nested_performance(loop)
+        case CascadeLoop():
+            return nested_performance(loop.nested)
+        case _:
+            raise not_a_loop(loop)
+
+
+def _of_single(loop: Loop) -> Performance:
     verdict = stability(loop)
     if verdict.verdict != "stable":
         raise NotStable(f"step metrics exist for a stable loop only, got one that is {verdict.verdict}")
@@ -90,7 +85,7 @@ def performance(loop: Loop) -> Performance:
     return Performance(*metrics_of(both_steps(course)))
 
 
-def both_steps(course: Course) -> Steps:
+def both_steps(course: UnitResponses) -> Steps:
     """Set-point steps of all tunings, then their load steps."""
     n, m = len(course.first) - 1, len(course.owner)
     return Steps(
@@ -101,10 +96,3 @@ def both_steps(course: Course) -> Steps:
         np.concatenate([course.first[:-1], course.first[:-1] + m]),
         np.array([1.0, 0.0]).repeat(n),
     )
-
-
-def metrics_of(steps: Steps) -> tuple[StepMetrics, ...]:
-    """All metrics of each response."""
-    found = measures(steps)
-    columns = (getattr(found, name).tolist() for name in StepMetrics.__slots__)
-    return tuple(StepMetrics(*row) for row in zip(*columns, strict=True))

@@ -14,8 +14,9 @@ from scipy.optimize import brentq
 
 from simc_core.certificate.verdict import count_unstable
 from simc_core.errors import InvalidParameter
-from simc_core.loops.nested import NestedLoops, closed_inside
-from simc_core.sensitivity.nested_margins import Ms_of
+from simc_core.loops.frequency_response import closed_inside
+from simc_core.loops.nested import NestedLoops
+from simc_core.sensitivity.nested_response import Ms_of
 
 FASTEST, SLOWEST, SPEEDS = 1e-2, 1e2, 65  # in units of the scale
 OMEGAS = 240
@@ -28,7 +29,7 @@ TRIED = 12  # loops of small Ms that are tried for an answer in the error messag
 At = Callable[[float], NestedLoops]
 
 
-def fastest(at: At, Ms: float, scale: float, name: str, Ms_name: str) -> float:
+def smallest_speed_with_peak(at: At, Ms: float, scale: float, name: str, Ms_name: str) -> float:
     """The smallest tau with `at(tau)` stable and Ms its peak; at(tau) may differ in the outermost controller only.
 
     Raises InvalidParameter where there is none; the message tells the smallest Ms of a stable loop.

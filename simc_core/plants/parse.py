@@ -11,10 +11,10 @@ were written apart stay apart, so that nothing is lost on the way. What could be
 import re
 from fractions import Fraction
 
-from simc_core.errors import ParseError
+from simc_core.errors import InvalidParameter, ParseError
 from simc_core.numbers.refusal import quoted
-from simc_core.plants.parse_values import Value, number_of, plant_of
-from simc_core.plants.pasted.calls import read_call
+from simc_core.plants.parse_values import Value, degree, inverse, number_of, plant_of, polynomial, times
+from simc_core.plants.pasted.calls import coefficients, read_call, with_numbers
 from simc_core.plants.pasted.clutter import without_clutter
 from simc_core.plants.pasted.grammar import Reader
 from simc_core.plants.pasted.parameters import DAMPING, DELAYS, GAINS, LAGS, from_parameters
@@ -22,6 +22,10 @@ from simc_core.plants.pasted.statements import Statement, statements
 from simc_core.plants.plant import Plant
 
 LONGEST_TEXT = 2000
+WITH_UNIT = re.compile(
+    r"(?P<number>[-+]?[\d.,]*\d(?:[eE][-+]?\d+)?) *(?:[%°]?[^\W\d_]+|%)(?: */ *(?:[%°]?[^\W\d_]+|%))?"
+)
+LIST = re.compile(r"\[[^\[\]]*\]['.]*|(?:\w+\.)?(?:array|conv|convolve|polymul)\s*\(.*\)", re.DOTALL)
 EXAMPLE = "for instance exp(-3s)/((6s+1)(4s+1))"
 
 
@@ -69,10 +73,14 @@ def _plant(text: str) -> Plant:
     value = _Statements(text).value()
     if value.theta < 0:
         raise ParseError(
-            f"dead time must be >= 0, got {float(value.theta):g}: e^{{+{-float(value.theta):g} s}} is a prediction. "
-            "Write e^{-3s} for a dead time of 3",
+            f"dead time must be >= 0, got {float(value.theta):g}: e^{{+{-float(value.theta):g}s}} would look into "
+            f"the future; a dead time of {-float(value.theta):g} is e^{{-{-float(value.theta):g}s}}",
             text,
             value.at,
+        )
+    if not value.den and degree(value):
+        raise ParseError(
+            "a denominator is missing: write / between numerator and denominator, as in 2/(10s+1)", text, len(text)
         )
     return plant_of(value)
 
@@ -84,6 +92,7 @@ class _Statements:
         self.text = text
         self.plain = without_clutter(text)
         self.numbers: dict[str, tuple[Fraction, Statement]] = {}
+        self.lists: dict[str, Statement] = {}
         self.functions: list[tuple[Value, Statement]] = []
         self.names: dict[str, Value] = {}
         self.used: set[str] = set()
@@ -92,9 +101,17 @@ class _Statements:
         parts = statements(self.plain)
         if not parts:
             raise ParseError(f"a transfer function is missing here: write one, {EXAMPLE}", self.text)
-        others = [part for part in parts if not self.read_number(part)]
+        for part in parts:
+            self.refuse_unit(part)
+        others = [part for part in parts if not self.read_list(part) and not self.read_number(part)]
         for part in others:
             self.read_function(part)
+        if not self.functions and {"num", "den"} <= self.lists.keys() | self.numbers.keys():
+            self.functions = [(times(self.names["num"], inverse(self.names["den"])), parts[-1])]
+            self.used |= {"num", "den"}
+        for name, part in self.lists.items():
+            if name not in self.used:
+                raise self.fault(f"'{quoted(part.name)}' is a list of numbers and is not used: leave it out", part)
         unused = {name: given for name, given in self.numbers.items() if name not in self.used}
         if not self.functions:
             return from_parameters(self.text, unused)
@@ -105,6 +122,20 @@ class _Statements:
                     raise self.fault("a number stands here without a name: write theta = 3 for a dead time", part)
                 raise self.fault("there are two transfer functions in this text: enter one of them", part)
         return self.delayed(value, unused)
+
+    def read_list(self, part: Statement) -> bool:
+        """Whether the statement gives coefficients a name, den = [10 1]; if so they are kept."""
+        given = self.plain[part.start : part.stop].strip()
+        lone = part.key not in ("num", "den") and not re.search(r"[\s,]", given[1:-1].strip())
+        if part.names_a_plant or part.key.lower() in (*GAINS, *LAGS, *DELAYS) or lone or not LIST.fullmatch(given):
+            return False
+        try:
+            found = coefficients(quoted(part.name), with_numbers(given, self.names, self.used))
+        except InvalidParameter as error:
+            raise self.fault(str(error), part) from None
+        self.lists[part.key] = part
+        self.names[part.key] = polynomial(found)
+        return True
 
     def read_number(self, part: Statement) -> bool:
         """Whether the statement gives a number its name; if so it is kept."""
@@ -121,10 +152,17 @@ class _Statements:
         self.names[part.key] = Value(((number,),))
         return True
 
+    def refuse_unit(self, part: Statement) -> None:
+        found = WITH_UNIT.fullmatch(self.plain[part.start : part.stop].strip())
+        if found and part.key.lower() in (*GAINS, *LAGS, *DELAYS, *DAMPING):
+            raise self.fault(
+                f"'{quoted(part.name)}' must be a number without a unit, all times in the same one: "
+                f"write {quoted(part.name)} = {found['number']}",
+                part,
+            )
+
     def read_function(self, part: Statement) -> None:
-        name, given = part.key.lower(), self.plain[part.start : part.stop].strip()
-        with_unit = name in (*GAINS, *LAGS, *DAMPING) and re.fullmatch(r"[-+\d.,eE ]*\d *[^\W\d_%°/]+", given)
-        if name in DELAYS or with_unit:
+        if part.key.lower() in DELAYS:
             raise self.fault(
                 f"'{quoted(part.name)}' must be a number without a unit, as in {quoted(part.name)} = 3", part
             )

@@ -7,11 +7,30 @@ every key that is used has its entry, and every entry is used.
 """
 
 SOURCES = {
+    "AH04": "K. J. Astrom and T. Hagglund: Revisiting the Ziegler-Nichols step response method for PID control. "
+    "Journal of Process Control 14 (2004) 635-650.",
+    "CC53": "G. H. Cohen and G. A. Coon: Theoretical consideration of retarded control. Transactions of the ASME 75 "
+    "(1953) 827-834.",
+    "CHR52": "K. L. Chien, J. A. Hrones and J. B. Reswick: On the automatic control of generalized passive systems. "
+    "Transactions of the ASME 74 (1952) 175-185.",
+    "GS18": "C. Grimholt and S. Skogestad: Optimal PI and PID control of first-order plus delay processes and "
+    "evaluation of the original and improved SIMC rules. Journal of Process Control 70 (2018) 36-46.",
+    "K54": "C. Kessler: Ueber die Vorausberechnung optimal abgestimmter Regelkreise (magnitude optimum), "
+    "Regelungstechnik 2 (1954) and 3 (1955); Das symmetrische Optimum, Regelungstechnik 6 (1958).",
+    "K95": "U. Kuhn: Eine praxisnahe Einstellregel fuer PID-Regler: die T-Summen-Regel. Automatisierungstechnische "
+    "Praxis 37 (1995) no. 5, 10-16.",
+    "LPLB98": "Y. Lee, S. Park, M. Lee and C. Brosilow: PID controller tuning for desired closed-loop responses for "
+    "SI/SO systems. AIChE Journal 44 (1998) 106-115.",
+    "M67": "P. W. Murrill: Automatic Control of Processes. International Textbook Company, 1967.",
     "PSB": "Prelic, Sekara and Boskovic: analytic design of PI and PID controllers for cascade processes under "
     "robustness constraints.",
+    "R69": "A. A. Rovira, P. W. Murrill and C. L. Smith: Tuning controllers for setpoint changes. Instruments and "
+    "Control Systems 42 (1969) 67-69.",
     "RMS86": "D. E. Rivera, M. Morari and S. Skogestad: Internal Model Control. 4. PID Controller Design. Industrial & "
     "Engineering Chemistry Process Design and Development 25 (1986) 252-265. "
     "https://doi.org/10.1021/i200032a041",
+    "SCH97": "H. M. Schaedel: A new method of direct PID controller design based on the principle of cascaded damping "
+    "ratios. Proceedings of the European Control Conference, 1997.",
     "SG12": "S. Skogestad and C. Grimholt: The SIMC Method for Smooth PID Controller Tuning. Chapter 5 in R. Vilanova "
     "and A. Visioli (eds.), PID Control in the Third Millennium, Springer, 2012. "
     "https://doi.org/10.1007/978-1-4471-2425-2_5",
@@ -19,15 +38,19 @@ SOURCES = {
     "Control 13 (2003) 291-309. https://doi.org/10.1016/S0959-1524(02)00062-8",
     "SK98": "S. Skogestad: Utledning av Skogestads PID-regler (Derivation of Skogestad's PID rules). Note in "
     "Norwegian, 20 August 1998.",
+    "TL92": "B. D. Tyreus and W. L. Luyben: Tuning PI controllers for integrator/dead time processes. Industrial & "
+    "Engineering Chemistry Research 31 (1992) 2625-2628.",
     "V06": "Viteckova: Jednoduche serizeni regulatoru metodou SIMC (Simple controller tuning by the SIMC method). In "
     "Czech, 2006.",
+    "ZN42": "J. G. Ziegler and N. B. Nichols: Optimum settings for automatic controllers. Transactions of the ASME 64 "
+    "(1942) 759-768.",
 }
 
 HEAD = """# Sources
 
 Made by `python -m simc_core.published.sources`; to change an entry, change that module. A DOI is given where it was
-found confirmed. No DOI was found for [PSB], [SK98] and [V06], and their authors and titles are as this project received
-them: look them up before you cite them.
+found confirmed. [PSB], [SK98] and [V06] are cited as this project received them, those without a DOI from the common
+knowledge of the field: look them up before you cite them.
 """
 
 

@@ -16,7 +16,8 @@ import numpy as np
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller
 from simc_core.loops.frequency_grid import omega_grid
-from simc_core.loops.loop import Loop, frequency_response
+from simc_core.loops.frequency_response import frequency_response
+from simc_core.loops.loop import Loop
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.plants.step_response import PlantStep, plant_step, step_horizon

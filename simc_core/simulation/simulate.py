@@ -1,23 +1,24 @@
 """Time responses of a loop: unit steps put together to a scenario, or, with limits, noise or sampling, step by step."""
 
-from functools import lru_cache, singledispatch
+from functools import lru_cache
 
 import numpy as np
 
 from simc_core.certificate.verdict import stability
 from simc_core.loops.loop import Loop
+from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
 from simc_core.simulation.actuator.actuation import Inputs, Stepped
 from simc_core.simulation.actuator.continuous import actuated
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import times
 from simc_core.simulation.one_delay.march import march
-from simc_core.simulation.one_delay.unit_responses import Course
+from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.scenario import Scenario, TimeResponse
+from simc_core.simulation.simulate_nested import NestedResponse, simulate_nested
 from simc_core.simulation.superposition import doubled, superposed
 
 
-@singledispatch
-def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
+def simulate(loop: Loop | CascadeLoop | NestedLoops, scenario: Scenario | None = None) -> TimeResponse | NestedResponse:
     """y and u for a scenario, from rest, with the dead time exact. Unstable loops are simulated as well.
 
     Parameters
@@ -36,6 +37,8 @@ def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
     ------
     InvalidParameter
         The loop is ill-posed, or cannot be simulated within the bounds of time and memory.
+    WrongType
+        `loop` is no loop.
 
     Examples
     --------
@@ -47,6 +50,18 @@ def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
     [0.0, 0.25]
     """
     scenario = scenario or Scenario()
+    match loop:
+        case Loop():
+            return _single(loop, scenario)
+        case NestedLoops():
+            return simulate_nested(loop, scenario)
+        case CascadeLoop():
+            return simulate_nested(loop.nested, scenario)
+        case _:
+            raise not_a_loop(loop)
+
+
+def _single(loop: Loop, scenario: Scenario) -> TimeResponse:
     begins, t_end = times(loop, scenario)
     ramps = scenario.setpoint_ramp, scenario.disturbance_ramp
     if not scenario.actuation.linear:
@@ -58,7 +73,7 @@ def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse:
 
 
 @lru_cache(maxsize=32)  # one design is simulated and measured, and both begin here
-def settled(loop: Loop) -> Course:
+def settled(loop: Loop) -> UnitResponses:
     """Unit step responses of a stable loop, to their rest."""
     return march(loop.plant, [loop.controller.to_parallel()], None)
 

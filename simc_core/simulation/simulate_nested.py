@@ -6,13 +6,12 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.errors import InvalidParameter
-from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.loops.nested import NestedLoops
 from simc_core.simulation.collocation.elements import P
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import round_up
 from simc_core.simulation.scenario import Scenario
 from simc_core.simulation.several_delays.stepper import steps_of
-from simc_core.simulation.simulate import simulate
 from simc_core.simulation.superposition import superposed
 
 SETTLED = 0.01  # of the largest value; where a default horizon ends
@@ -66,17 +65,11 @@ class NestedResponse:
         return self.ds[0]
 
 
-@simulate.register
-def _(loop: CascadeLoop, scenario: Scenario | None = None) -> NestedResponse:
-    return simulate(loop.nested, scenario)
-
-
-@simulate.register
-def _(loop: NestedLoops, scenario: Scenario | None = None) -> NestedResponse:
-    scenario = scenario or Scenario()
+def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
+    """simulate of nested loops. Raises InvalidParameter."""
     if not scenario.actuation.linear:
         raise InvalidParameter(
-            "u_min, u_max, noise and h must be left out for nested loops, whose limits are in simulation/windup.py, "
+            "actuation must be left out for nested loops, whose limits are in simulation/nested_windup.py, "
             f"got {scenario.actuation}"
         )
     if scenario.setpoint_ramp or scenario.disturbance_ramp:
@@ -95,7 +88,7 @@ def time_scale(loop: NestedLoops) -> float:
     """All times of blocks and controllers together."""
     total = 0.0
     for block, controller in zip(loop.blocks, loop.controllers, strict=True):
-        total += block.theta + sum(map(abs, block.lags)) + sum(tau for tau, _ in block.lag_pairs)
+        total += block.total_time
         form = controller.to_parallel() if controller else None
         total += abs(form.Kp / form.Ki) if form and form.Ki else 0.0
     return total or 1.0

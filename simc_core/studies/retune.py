@@ -4,7 +4,7 @@ import math
 
 from simc_core.metrics.performance import Performance
 from simc_core.notation import number
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 
 SAME = 0.02  # relative: a change that nobody would see
 DIGITS = 3

@@ -1,33 +1,35 @@
 """Many values of tau_c at once: everything the tuning page shows, as arrays of shape (len(tau_c), ...).
 
-All tunings of a plant share what the plant does: in time (simulation/march.py: one matrix product for all of them), and
-in frequency (one grid, one search, one certificate for all).
+All tunings of a plant share what the plant does: in time (simulation/one_delay/march.py: one matrix product for
+all of them), and in frequency (one grid, one search, one certificate for all).
 """
 
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
-from simc_core.loops.loop import Loop, at_frequencies
+from simc_core.loops.frequency_response import at_frequencies
+from simc_core.loops.loop import Loop
 from simc_core.metrics.performance import both_steps
 from simc_core.metrics.step_metrics import measures
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins_many
+from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share
 from simc_core.simulation.one_delay.march import march
-from simc_core.simulation.one_delay.unit_responses import Course
+from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.scenario import instants
 from simc_core.simulation.superposition import ramp_response
 
 MOST_TUNINGS = 10_000
-TOGETHER = 250  # tunings in one march: a bound on memory
+MOST_VALUES = 20_000_000  # numbers in the arrays of a sweep: 160 MB
 MARGINS = ("GM", "GM_lower", "PM_deg", "delay_margin", "Ms", "Mt")
 METRICS = ("IAE_setpoint", "IAE_disturbance", "TV_setpoint", "TV_disturbance", "overshoot")
 
@@ -109,7 +111,12 @@ def sweep(
         Where `simc` does, and where `simulate` does for one of the loops.
     """
     tau_c, t, omega = _tau_c(tau_c), instants(t), at_frequencies(omega)
-    controllers = tuple(dressed(simc(model, each), b, filter_ratio) for each in tau_c.tolist())
+    values = len(tau_c) * (4 * len(t) + 2 * len(omega))
+    if values > MOST_VALUES:
+        raise InvalidParameter(
+            f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, got {values}"
+        )
+    controllers = tuple(simc(model, each).with_filter(filter_ratio).with_weight(b) for each in tau_c.tolist())
     loops = [Loop(plant, controller) for controller in controllers]
     found = margins_many(loops)
     stable = [each.stable for each in found]
@@ -126,13 +133,6 @@ def sweep(
         *(np.array([getattr(each, name) for each in found]) for name in MARGINS),
         *metrics.T,
     )
-
-
-def dressed(controller: Controller, b: float, filter_ratio: float) -> Controller:
-    """`controller` with set-point weight b and tau_F = filter_ratio tau_D; pure I action takes neither."""
-    if isinstance(controller, IController):
-        return controller
-    return replace(controller, b=b, tau_F=filter_ratio * controller.tau_D)
 
 
 def time_curves(
@@ -177,19 +177,33 @@ def _curves_and_metrics(
 
 def _courses(
     plant: Plant, controllers: Sequence[Controller], ends: Sequence[float | None]
-) -> Iterator[tuple[np.ndarray, Course]]:
+) -> Iterator[tuple[np.ndarray, UnitResponses]]:
     """Tunings that can march together, and their course; ends: None for one that goes to its rest."""
     forms = [controller.to_parallel() for controller in controllers]
-    alike: dict[tuple, list[int]] = defaultdict(list)
+    work, alike = 0, defaultdict(list)
     for i, (form, end) in enumerate(zip(forms, ends, strict=True)):
         alike[form.tau_F, form.Kd != 0, end].append(i)
     for (*_, end), members in alike.items():
-        for at in range(0, len(members), TOGETHER):
-            some = members[at : at + TOGETHER]
-            yield np.array(some), march(plant, [forms[i] for i in some], end)
+        at = 0
+        while at < len(members):
+            course = march(plant, [forms[i] for i in members[at:]], end, share(len(forms)))
+            some = members[at : at + len(course.at_rest)]
+            at += len(some)
+            if end is not None:
+                work += len(course.owner)
+                _check_work(work, len(forms), end)
+            yield np.array(some), course
 
 
-def _at(course: Course, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:
+def _check_work(elements: int, tunings: int, t_end: float) -> None:
+    if elements > MOST_OF_ALL:
+        raise InvalidParameter(
+            f"{tunings} responses up to t = {t_end:.4g} must need at most {MOST_OF_ALL} elements, got more: ask for "
+            "fewer, or for shorter ones"
+        )
+
+
+def _at(course: UnitResponses, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:
     values = course(t)
     if disturbance_time:
         values[:, :, 1] = course(t - disturbance_time)[:, :, 1]

@@ -46,7 +46,7 @@ def test_one_thing_alone_is_enough_for_the_mark(given, words):
 def test_off_by_default_and_then_the_linear_loop_itself():
     app = opened()
     assert curves(app) == [{"r", "linear", "as built"}, {"linear", "as built"}]
-    built, linear = map(float, cell(app, "IAE as built · linear").split(" · "))
+    built, linear = map(float, cell(app, "IAE: as built · linear").split(" · "))
     assert built == pytest.approx(linear, rel=2e-3)
     assert "Nothing is limited yet" in texts(app)
 

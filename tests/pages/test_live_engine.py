@@ -126,7 +126,7 @@ def test_integrals_are_good_to_the_two_digits_that_are_shown(drawn):
                 judged = performance(loop)
             except SimcError:
                 continue
-            pairs = (("IAE_setpoint", judged.setpoint.IAE), ("IAE_load", judged.disturbance.IAE))
+            pairs = (("IAE_setpoint", judged.setpoint.IAE), ("IAE_disturbance", judged.disturbance.IAE))
             for name, exact in pairs:
                 ours = picture["figures"][name]
                 if ours is not None and exact:

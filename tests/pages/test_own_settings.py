@@ -24,7 +24,7 @@ def test_my_settings_are_what_is_judged():
     app = run_page("tuning", "Figures", plant=HEATER, own=NOW, controller="own")
     assert ">200<" in strip(app)
     assert ">1.289<" in strip(app)  # faults.md a1, by python-control too
-    assert "τc exactly" not in [field.label for field in app.text_input]
+    assert "τc, exact" not in [field.label for field in app.text_input]
 
 
 def test_simc_settings_are_taken_over_and_changed_by_hand():
@@ -93,7 +93,7 @@ def test_times_and_gains_have_the_units_of_the_loop_sheet():
     app = run_page("tuning", "Compare", plant=HEATER, **units)
     table = next(frame.value for frame in app.dataframe if "present" in frame.value)
     assert {"τc [min]", "Kp [%/°C]", "IAE, load [°C min]", "TV, load [%]"} <= set(table.iloc[:, 0])
-    assert app.text_input("tau_c_exact").label == "τc exactly [min]"
+    assert app.text_input("tau_c_exact").label == "τc, exact [min]"
     assert "θ = 20 min is its effective dead time" in texts(app)
 
 

@@ -28,6 +28,8 @@ NUMBERS = {
     "1’200/(5s+1)": lambda s: 1200 / (5 * s + 1),
     "1,234.5/(5s+1)": lambda s: 1234.5 / (5 * s + 1),
     "1.234/(s+1)": lambda s: 1.234 / (s + 1),
+    "1.234,5/(5s+1)": lambda s: 1234.5 / (5 * s + 1),
+    "1.234.567,5/(3.600,0s+1)": lambda s: 1234567.5 / (3600 * s + 1),
     "0,005/(1,5s+1)": lambda s: 0.005 / (1.5 * s + 1),
     "2,5 e^{-3s}/(1,5s+1)": lambda s: 2.5 * exp(-3 * s) / (1.5 * s + 1),
     "10 000e^{-2s}/(12 000s+1)": lambda s: 10000 * exp(-2 * s) / (12000 * s + 1),
@@ -105,7 +107,44 @@ CALLS = {
     "G1 = 2/(5s+1); G2 = 1/(s+1); G = G1*G2": lambda s: 2 / ((5 * s + 1) * (s + 1)),
 }
 
+SCRIPTS = {
+    "num = [2]; den = [10 1]; G = tf(num,den)": lambda s: 2 / (10 * s + 1),
+    "num = [1 2];\nden = [1 3 2];\nG = tf(num, den, 'InputDelay', 3);": (
+        lambda s: (s + 2) * exp(-3 * s) / (s**2 + 3 * s + 2)
+    ),
+    "num = [1 2]; den = [1 3 2]": lambda s: (s + 2) / (s**2 + 3 * s + 2),
+    "num = [1, 2], den = [1, 3, 2]": lambda s: (s + 2) / (s**2 + 3 * s + 2),
+    "num = 2; den = conv([10 1],[5 1]); P = tf(num,den)": lambda s: 2 / ((10 * s + 1) * (5 * s + 1)),
+    "num = np.array([2.0]); den = np.array([10.0, 1.0])": lambda s: 2 / (10 * s + 1),
+    "K=2; T=10; G=tf(K,[T 1])": lambda s: 2 / (10 * s + 1),
+    "K=2; T=10; L=3; G=tf(K,[T 1],'InputDelay',3)*exp(-L*s)": lambda s: 2 * exp(-6 * s) / (10 * s + 1),
+    "K=2; T=10; num=[K]; den=[T 1]; G=tf(num,den)": lambda s: 2 / (10 * s + 1),
+    "import control as ct\nG = ct.tf([2], [10, 1])": lambda s: 2 / (10 * s + 1),
+    "import control as ct G = ct.tf([2], [10, 1])": lambda s: 2 / (10 * s + 1),
+    "from control import tf; G = tf([2],[10,1])": lambda s: 2 / (10 * s + 1),
+    "import sympy as sp\ns = sp.symbols('s')\nG = 2*sp.exp(-3*s)/(10*s+1)": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "pkg load control; G = tf(2,[10 1])": lambda s: 2 / (10 * s + 1),
+    "s = zpk('s'); G = 2/(10*s+1)": lambda s: 2 / (10 * s + 1),
+    "s=tf('s'), G=2*exp(-3*s)/(10*s+1)": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "s = tf('s');\nG = 2/(10*s+1);\nG.InputDelay = 3;": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "G = tf(2, ...\n [10 1])": lambda s: 2 / (10 * s + 1),
+    "TransferFunction(s + 2, s**2 + 3*s + 2, s)": lambda s: (s + 2) / (s**2 + 3 * s + 2),
+    "TransferFunction(2*exp(-3*s), 10*s + 1, s)": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "TransferFunction(num=[2], den=[10, 1])": lambda s: 2 / (10 * s + 1),
+    "signal.lti([-1],[-2,-3],5)": lambda s: 5 * (s + 1) / ((s + 2) * (s + 3)),
+    "signal.ZerosPolesGain([-1],[-2,-3],5)": lambda s: 5 * (s + 1) / ((s + 2) * (s + 3)),
+    "Transfer function G(s) = 2/(10s+1)": lambda s: 2 / (10 * s + 1),
+    "The plant is G(s) = 2/(10s+1)": lambda s: 2 / (10 * s + 1),
+    "2*E**(-3*s)/(10*s+1)": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "(2 E^(-3 s))/(1 + 10 s)": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "2*%e^-(3*s)/(10*s+1)": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "exp(-3s)*tf(2,[10,1])": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "tf(1,[1,2])": lambda s: 1 / (s + 2),
+    "tf([2],[10 1],'InputDelay',3)": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+}
+
 CLUTTER = {
+    "2/(5s+1)。": lambda s: 2 / (5 * s + 1),
     "2/(5s+1);": lambda s: 2 / (5 * s + 1),
     "2/(5s+1).": lambda s: 2 / (5 * s + 1),
     "2/(5s+1),": lambda s: 2 / (5 * s + 1),
@@ -158,6 +197,11 @@ LETTERS = {
     "2e⁻ˢ/(5s+1)²": lambda s: 2 * exp(-s) / (5 * s + 1) ** 2,
     "(5s+1)⁻¹": lambda s: 1 / (5 * s + 1),
     "2÷(5s+1)": lambda s: 2 / (5 * s + 1),
+    "𝐺(𝑠) = 2𝑒^{−3𝑠}/(5𝑠+1)": lambda s: 2 * exp(-3 * s) / (5 * s + 1),
+    "2 ℯ^(-3s)/(5s+1)": lambda s: 2 * exp(-3 * s) / (5 * s + 1),
+    "𝐾/(𝜏𝑠+1), 𝐾=2, 𝜏=5": lambda s: 2 / (5 * s + 1),
+    "2s⁻¹e^{-s}": lambda s: 2 * exp(-s) / s,
+    "2 (5s+1)⁻¹ e⁻³ˢ": lambda s: 2 * exp(-3 * s) / (5 * s + 1),
     "2∕(5s+1)": lambda s: 2 / (5 * s + 1),
     "2⋅e^(−3⋅s)/(5⋅s+1)": lambda s: 2 * exp(-3 * s) / (5 * s + 1),
     "2*e**(-3*s)/(5*s+1)": lambda s: 2 * exp(-3 * s) / (5 * s + 1),
@@ -199,6 +243,18 @@ PARAMETERS = {
     r"K e^{-\theta s}/(\tau s+1), K=2, \theta = 3, \tau=10": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
     r"\frac{K e^{-Ls}}{Ts+1}; K=2; T=5; L=1": lambda s: 2 * exp(-s) / (5 * s + 1),
     "K/(s+p), K=2, p=3": lambda s: 2 / (s + 3),
+    "k=2, theta=3, tau=10": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "k: 2, tau: 10, theta: 3": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "K: 2,5; T: 10; L: 0,5": lambda s: 2.5 * exp(-0.5 * s) / (10 * s + 1),
+    "Kp = 2\nTp1 = 10\nTd = 3": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "Gain=2 Lag=10 Delay=3": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "process gain = 2, time constant = 10, time delay = 3": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "FOPDT: K=2, tau=10, theta=3": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "first order plus dead time, K=2, T=10, L=3": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "SOPDT: K=2, tau1=10, tau2=5, theta=3": lambda s: 2 * exp(-3 * s) / ((10 * s + 1) * (5 * s + 1)),
+    r"\frac{K}{\tau s+1}e^{-\theta s}\quad K=2,\ \tau=10,\ \theta=3": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "wn=2; zeta=0.5; G = wn^2/(s^2+2*zeta*wn*s+wn^2)": lambda s: 4 / (s**2 + 2 * s + 4),
+    "H(p) = K/(1+T p), K=2, T=10": lambda s: 2 / (10 * s + 1),
 }
 
 MATLAB = (
@@ -219,6 +275,20 @@ DRAWN = {
     ),
     "   5 (s+1)\n  -----------\n  (s+2) (s+3)": lambda s: 5 * (s + 1) / ((s + 2) * (s + 3)),
     "1\n-\ns": lambda s: 1 / s,
+    "2\n─\ns": lambda s: 2 / s,
+    "2 ⎯⎯⎯⎯ 10s+1": lambda s: 2 / (10 * s + 1),
+    "         2\nG(s) = ------\n       10s+1": lambda s: 2 / (10 * s + 1),
+    "   2   G(s) = ------   10s+1": lambda s: 2 / (10 * s + 1),
+    "   2\n-------\n 2\ns  + 3 s + 1": lambda s: 2 / (s**2 + 3 * s + 1),
+    "       2\n  ------------\n   2\n  s  + 3 s + 1": lambda s: 2 / (s**2 + 3 * s + 1),
+    "      2      \n─────────────\n 3      2      \ns  + 3⋅s  + 1 ": lambda s: 2 / (s**3 + 3 * s**2 + 1),
+    "0.5\n───\n  2\n s ": lambda s: 0.5 / s**2,
+    "1\n--\n 2\ns": lambda s: 1 / s**2,
+    "     -3s\n  2 e\n ---------\n  10 s + 1": lambda s: 2 * exp(-3 * s) / (10 * s + 1),
+    "    1\n----------\n         2\n(5 s + 1)": lambda s: 1 / (5 * s + 1) ** 2,
+    "TransferFunction{Continuous, Float64}\n    2.0\n-----------\n10.0s + 1.0\n\n"
+    "Continuous-time transfer function model": lambda s: 2 / (10 * s + 1),
+    MATLAB + "Model Properties": lambda s: 5 * exp(-2 * s) / (10 * s + 1),
     "#      2\n#  ---------\n#   5 s + 1": lambda s: 2 / (5 * s + 1),
     "%  s + 2 %  ------ %  5 s + 1": lambda s: (s + 2) / (5 * s + 1),
     "exp(-2*s) * 5 ----- 10 s + 1": lambda s: 5 * exp(-2 * s) / (10 * s + 1),
@@ -226,7 +296,7 @@ DRAWN = {
     "G(s) =   2 e^{-3s}\n       ------------\n         5s + 1": lambda s: 2 * exp(-3 * s) / (5 * s + 1),
 }
 
-MEANT = NUMBERS | NAMES | CALLS | CLUTTER | LATEX | LETTERS | PARAMETERS | DRAWN
+MEANT = NUMBERS | NAMES | CALLS | SCRIPTS | CLUTTER | LATEX | LETTERS | PARAMETERS | DRAWN
 
 
 @pytest.mark.parametrize("text", MEANT, ids=lambda text: " ".join(text.split()))

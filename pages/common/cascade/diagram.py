@@ -12,7 +12,7 @@ import streamlit as st
 
 from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller
 from simc_core.notation import latex_factors, number, plain
 from simc_core.plants.plant import Plant
 
@@ -20,17 +20,6 @@ LINE, CHARACTER, SMALL = 14, 6.3, 4.6  # px: line height, width of a letter and 
 RADIUS = 9  # of a summing point
 MOST_LINES = 3  # of a denominator; a longer plant is named only, and stands in full on top of the page
 GREEK = {"tau_I": ("τ", "I"), "tau_D": ("τ", "D"), "tau_F": ("τ", "F")}
-STYLE = """<style>
-.diagram svg {display: block; width: 100%; height: auto; max-width: 60rem; margin: auto; overflow: visible}
-.diagram .narrow {display: none}
-.diagram text {fill: currentColor; font-family: inherit; font-size: 12px}
-.diagram .wire {fill: none; stroke: currentColor; stroke-width: 1.2; opacity: 0.75}
-.diagram .head {fill: currentColor; opacity: 0.75}
-.diagram .box {fill: none; stroke: currentColor; stroke-width: 1.2}
-.diagram .outer {stroke: var(--simc-y); stroke-width: 2} .diagram .inner {stroke: var(--simc-inner); stroke-width: 2}
-.diagram .name {font-weight: 600}
-@media (max-width: 640px) {.diagram .wide {display: none} .diagram .narrow {display: block}}
-</style>"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +39,6 @@ class Box:
 
 def diagram(study: CascadeStudy, form: str) -> None:
     """The diagram; controllers with their settings in `form`, parallel where they have none in it."""
-    st.html(STYLE)
     picture = f'<div class="diagram">{wide(study, form)}{narrow(study, form)}</div>'
     st.markdown(picture, unsafe_allow_html=True)  # st.html takes no SVG; all texts in it are numbers or escaped
 
@@ -107,10 +95,7 @@ def narrow(study: CascadeStudy, form: str) -> str:
 def settings_lines(controller: Controller, form: str) -> list[tuple[str, float]]:
     """Names and values of the settings in `form`; in the parallel form where there is none."""
     shown = controller.in_form(form if controller.has_form(form) else "parallel")
-    always, optional = (
-        shown.SETTINGS[:2],
-        (*shown.SETTINGS[2:], *(() if isinstance(shown, IController) else ("tau_F",))),
-    )
+    always, optional = shown.SETTINGS[:2], (*shown.SETTINGS[2:], *shown.OPTIONAL[:1])
     return [(name, getattr(shown, name)) for name in (*always, *(name for name in optional if getattr(shown, name)))]
 
 

@@ -5,26 +5,19 @@ import math
 import streamlit as st
 
 from pages.common.parts.quantities import QUANTITIES
-from pages.common.parts.strip import STYLE, Reading, cell_html, gain_margin, peak_html, reading
+from pages.common.parts.strip import Reading, cell_html, gain_margin, peak_html, reading
 from pages.common.parts.symbols import symbols
 from pages.common.studies.cascade import CascadeStudy, speed_symbol, verdict
 from simc_core.cascade.design import SEPARATE
 from simc_core.notation import number
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 
-MORE_STYLE = """<style>
-.strip.two {grid-template-columns: 1.3fr 0.95fr 1.1fr repeat(4, 1fr); border-left: none}
-.strip.two .first {grid-row: auto} .strip.two .first b {font-size: 1.6rem; line-height: 1.1}
-@media (max-width: 640px) {
-  .strip.two {grid-template-columns: repeat(3, 1fr)} .strip.two .first {grid-column: 1 / -1}
-}
-</style>"""
 STEPS = ("IAE_setpoint", "IAE_d1", "IAE_d2")
 
 
 def readout(study: CascadeStudy) -> None:
     """The strip and whether the inner loop pays; of a cascade that is not sound it holds no numbers."""
-    st.html(STYLE + MORE_STYLE + strip_html(study))
+    st.html(strip_html(study))
     if study.sound:
         st.caption(sentence(study))
 

@@ -18,23 +18,15 @@ from simc_core.controllers.forms import FORMS
 from simc_core.notation import number
 
 BLOCKS = (("Ga", "Ga primary", "primary block Ga"), ("Gb", "Gb secondary", "secondary block Gb"))
-METHOD_NAMES = {"simc": "SIMC", "synthesis": "Synthesis"}
+METHOD_NAMES = {"simc": "SIMC", "synthesis": "Direct synthesis"}
 SPEED_LETTERS = {"simc": "τc", "synthesis": "λ"}
 LOOPS = {"outer": "Outer loop", "inner": "Inner loop"}
 SPEEDS = [10 ** (i / 20) for i in range(-40, 21)]  # of a slider, in units of the loop's own times
 PEAKS = [1.05 + 0.05 * i for i in range(80)]
-STYLE = """<style>
-.st-key-cascade [data-testid="stVerticalBlock"] {gap: 0.6rem}
-:is(.st-key-loop_outer, .st-key-loop_inner) [data-testid="stButtonGroup"] button {padding: 0 0.45rem; min-width: 0}
-@media (max-width: 640px) { /* what moves comes first, what is set once below it */
-  .st-key-cascade [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
-}
-</style>"""
 
 
 def blocks() -> None:
     """Ga and Gb, each folded away; or a design of the paper."""
-    st.html(STYLE)
     with st.container(horizontal=True, gap="xsmall", key="blocks"):
         for name, label, title in BLOCKS:
             with st.popover(label, help=f"Enter the {title}"):
@@ -52,7 +44,7 @@ def blocks() -> None:
         "From the literature [PSB]",
         list(titles),
         key="pair",
-        placeholder="The paper's ten pairs",
+        placeholder="Published pairs (Prelić et al.)",
         label_visibility="collapsed",
         help="The ten process pairs of Prelić, Šekara and Bošković, with the designs they print; PI or PID "
         "outside, Ms inside · outside.",
@@ -115,7 +107,7 @@ def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
         key = f"{loop}_by"
         state.set_widget(key, asked)
         st.segmented_control(
-            "set by",
+            "speed from",
             ("auto", "tau_c", "Ms"),
             format_func={"auto": "auto", "tau_c": SPEED_LETTERS[cascade.method], "Ms": "Ms"}.get,
             key=key,
@@ -172,7 +164,7 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
         )
     design_number(
         name,
-        f"{symbol} of the {loop} loop, exactly",
+        f"{symbol} of the {loop} loop, exact",
         quantity="time" if asked == "tau_c" else "",
         key=f"{name}_exact",
         place=place,

@@ -20,12 +20,6 @@ from pages.common.session.links import number_text
 from simc_core.errors import SimcError
 from simc_core.numbers import read_number
 
-STYLE = """<style>
-[class*="st-key-refused_"] {gap: 0}
-[class*="st-key-refused_"] [data-testid="stAlertContainer"] {padding: 0.4rem 0.6rem}
-[class*="st-key-refused_"] p {font-size: 0.85rem; line-height: 1.35}
-</style>"""
-
 
 @dataclass(slots=True)
 class _Typed:
@@ -82,7 +76,6 @@ def number_field(
     if typed.why:
         in_use = f"{number_text(value)} stays in use." if number_text(value) else "It stays empty."
         with (under or place).container(key=f"refused_{key}"):
-            st.html(STYLE)
             st.error(f"{typed.why}. {in_use}")
 
 

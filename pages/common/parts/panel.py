@@ -8,8 +8,6 @@ from pages.common.parts.units import axes_named
 from pages.common.session import state
 from simc_core.figures import Figure, config
 
-NARROW = "@media (max-width: 640px)"
-
 
 @dataclass(frozen=True, slots=True)
 class Panel:
@@ -42,9 +40,4 @@ def show(figure: Figure, key: str, alt: str) -> None:
 def _style(keys: list[str], chosen: int) -> str:
     """Two by two on a wide screen; on a narrow one the panel chosen alone, and the choice in sight."""
     hidden = ", ".join(f".st-key-panel_{key}" for i, key in enumerate(keys) if i != chosen)
-    return f"""<style>
-.st-key-panels {{display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem 0.75rem}}
-.st-key-panels > * {{min-width: 0}}
-.st-key-panel {{display: none}}
-{NARROW} {{.st-key-panels {{grid-template-columns: 1fr}} .st-key-panel {{display: flex}} {hidden} {{display: none}}}}
-</style>"""
+    return f"<style>@media (max-width: 640px) {{{hidden} {{display: none}}}}</style>"

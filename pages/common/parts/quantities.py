@@ -39,14 +39,14 @@ QUANTITIES = {
         "Delay margin", "dead time that may be added before the loop becomes unstable", unit="time"
     ),
     "IAE_setpoint": Quantity("IAE set point", f"{_IAE} the set point, over all time", unit="PV time"),
-    "IAE_load": Quantity("IAE load", f"{_IAE} the load, over all time", unit="PV time"),
+    "IAE_disturbance": Quantity("IAE load", f"{_IAE} the load, over all time", unit="PV time"),
     "IAE_d1": Quantity("IAE d₁", f"{_IAE} the load d₁ at the input of Ga, over all time", unit="PV time"),
     "IAE_d2": Quantity("IAE d₂", f"{_IAE} the load d₂ at the input of Gb, over all time", unit="PV time"),
     "TV_setpoint": Quantity("TV set point", f"{_TV} the set point", unit="OP"),
-    "TV_load": Quantity("TV load", f"{_TV} the load", unit="OP"),
+    "TV_disturbance": Quantity("TV load", f"{_TV} the load", unit="OP"),
     "overshoot": Quantity("Overshoot [%]", "of y beyond a unit step of the set point", 100.0),
-    "peak_load": Quantity("Peak of y, unit load", "how far y goes at most after a unit step of the load", unit="PV"),
+    "peak_disturbance": Quantity("Peak of y, unit load", "how far y goes after a unit step of the load", unit="PV"),
     "settling_setpoint": Quantity("Settling set point", f"{_SETTLING} the set point", unit="time"),
-    "settling_load": Quantity("Settling load", f"{_SETTLING} the load", unit="time"),
+    "settling_disturbance": Quantity("Settling load", f"{_SETTLING} the load", unit="time"),
     "noise_gain": Quantity("Noise gain", "largest |K S|: from measurement noise to the input u", unit="OP/PV"),
 }

@@ -41,7 +41,7 @@ def as_text(controller: Controller, form: str, sheet: Sheet) -> str:
     """
     shown = controller.in_form(form)
     values = sizes(shown)
-    if not isinstance(shown, IController):
+    if shown.OPTIONAL:
         values |= {"tau_F": shown.tau_F} if shown.tau_F else {}
         values |= {"b": shown.b} if shown.b != 1 else {}
     lines = [

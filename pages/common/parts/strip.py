@@ -7,30 +7,8 @@ from html import escape
 from pages.common.parts.quantities import QUANTITIES
 from pages.common.parts.units import unit_of
 from pages.common.session import state
-from simc_core.figures import palette
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.bands import band_of
-
-STYLE = f"""<style>
-.strip {{display: grid; grid-template-columns: 1.5fr repeat(5, 1fr); font-variant-numeric: tabular-nums;
-  border: 1px solid {palette.GRID}; border-radius: 4px; overflow: hidden}}
-.strip > div {{padding: 0.3rem 0.6rem; line-height: 1.25; min-width: 0}}
-.strip small {{display: block; font-size: 0.75rem; opacity: 0.75; white-space: nowrap; overflow: hidden;
-  text-overflow: ellipsis}}
-.strip b {{font-size: 1.05rem; font-weight: 600; white-space: nowrap}}
-.strip i {{font-style: normal; font-size: 0.8rem; opacity: 0.75}}
-.strip .first {{grid-row: span 2; border-left: 6px solid var(--band); display: flex; flex-direction: column;
-  justify-content: center}}
-.strip .first b {{font-size: 2rem; color: var(--band)}}
-.strip .first span {{font-weight: 600; font-size: 0.85rem}}
-.strip.calm, .strip .calm {{--band: {palette.CALM}}}
-.strip .attention {{--band: {palette.ATTENTION}}}
-.strip.alarm, .strip .alarm {{--band: {palette.ALARM}}}
-@media (max-width: 640px) {{
-  .strip {{grid-template-columns: 1fr 1fr}}
-  .strip .first {{grid-row: auto; grid-column: 1 / -1}}
-}}
-</style>"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,15 +20,10 @@ from simc_core.notation import plain
 from simc_core.plants.examples import EXAMPLES
 
 WAYS = ("Text", "k, θ, τ", "Step test", "Factors", "Polynomials", "Examples")
-STYLE = """<style>
-:is(.st-key-plant_way, .st-key-Ga_way, .st-key-Gb_way) button {padding-inline: 0.3rem} /* side by side */
-:is(.st-key-plant_step_kind, .st-key-Ga_step_kind, .st-key-Gb_step_kind) button {padding-inline: 0.5rem}
-</style>"""
 
 
 def plant_entry(name: str = "plant", title: str = "plant") -> Plant:
     """Widgets to enter the plant called `name` in design.py (plant, Ga or Gb). Returns the last good one."""
-    st.html(STYLE)
     first = state.memory(f"{name}_first_way", lambda: "Step test" if state.value(FACTS[name]) else WAYS[0])
     way = st.segmented_control(
         f"Enter the {title} as", WAYS, default=first, required=True, key=f"{name}_way", persist_state="session"

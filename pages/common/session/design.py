@@ -3,12 +3,11 @@
 Pure Python, no streamlit. links.py writes a Design as an address, project.py as a file, state.py keeps one a session.
 """
 
-import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
 from pages.common.session.sheet import Sheet, ratio
-from simc_core import Plant, Scenario, checks
+from simc_core import Actuation, Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
@@ -66,6 +65,10 @@ class Tuning:
         return None if self.tau_c is not None else times_theta(self.speed)
 
 
+ACTUATION = tuple(each.name for each in fields(Actuation))
+IN_LINKS = {"tracking_time": "T_t", "h": "sampling"}  # h alone is taken, by Tuning
+
+
 @dataclass(frozen=True, slots=True)
 class Excitation:
     """What is asked of the loop in the figures. Metrics are those of unit steps in any case.
@@ -101,10 +104,10 @@ class Excitation:
 
 @dataclass(frozen=True, slots=True)
 class Actuator:
-    """How the loop is built: see simc_core Actuation; None for no limit.
+    """How the loop is built: the fields of Actuation, None for no limit.
 
     tracking_time: None for the default.   h: sampling period of the controller as built; Tuning.h is the one that the
-    half rule allows for.
+    half rule allows for.   law: of the sampled controller.
     """
 
     u_min: float | None = None
@@ -113,6 +116,7 @@ class Actuator:
     noise: float = 0.0
     seed: int = 0
     h: float = 0.0
+    law: str = "backward"
 
     def __post_init__(self):
         put = object.__setattr__
@@ -123,18 +127,12 @@ class Actuator:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
         scenario = self.scenario()  # which checks what it is made of
         for name in ("noise", "seed", "h"):
-            put(self, name, getattr(scenario, name))
+            put(self, name, getattr(scenario.actuation, name))
 
     def scenario(self, excitation: Excitation = Excitation()) -> Scenario:
         """The excitation with all of this."""
-        return excitation.scenario(
-            u_min=-math.inf if self.u_min is None else self.u_min,
-            u_max=math.inf if self.u_max is None else self.u_max,
-            tracking_time=self.tracking_time,
-            noise=self.noise,
-            seed=self.seed,
-            h=self.h,
-        )
+        given = {name: getattr(self, name) for name in ACTUATION if getattr(self, name) is not None}
+        return excitation.scenario(actuation=Actuation(**given))
 
     @property
     def on(self) -> bool:
@@ -240,9 +238,7 @@ PLACES: dict[str, tuple[str, str]] = {
     **{f"{name}_{loop}": ("cascade", f"{name}_{loop}") for name in ("tau_c", "Ms", "N") for loop in ("inner", "outer")},
     "b_outer": ("cascade", "b"),
     "filter_outer": ("cascade", "filter_outer"),
-    **{name: ("actuator", name) for name in ("u_min", "u_max", "noise", "seed")},
-    "T_t": ("actuator", "tracking_time"),
-    "sampling": ("actuator", "h"),
+    **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
     "d_time": ("excitation", "load_time"),

@@ -10,9 +10,9 @@ are inside.
     state.change(tau_c=7.5)                               from a button's callback, or before st.rerun()
 """
 
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from time import monotonic
 from typing import Any
 
 import streamlit as st
@@ -220,12 +220,12 @@ def set_widget(key: str, thing: Any) -> None:
     if key not in st.session_state or st.session_state[key] != thing:
         if key in st.session_state:
             replaced = st.session_state.setdefault("replaced", {})
-            replaced[key] = st.session_state[key], time.monotonic() + ANSWERED
+            replaced[key] = st.session_state[key], monotonic() + ANSWERED
         st.session_state[key] = thing
-        sent[key] = thing, time.monotonic() + SENT_AGAIN
+        sent[key] = thing, monotonic() + SENT_AGAIN
     elif key in sent:
         first, until = sent[key]
-        if first == thing and time.monotonic() < until:
+        if first == thing and monotonic() < until:
             st.session_state[key] = thing
         else:
             del sent[key]
@@ -243,7 +243,7 @@ def overtaken(key: str) -> bool:
     callbacks: to take such a report for an edit would undo what was decided in between.
     """
     former, until = st.session_state.get("replaced", {}).get(key, (None, 0.0))
-    return time.monotonic() < until and st.session_state.get(key) == former
+    return monotonic() < until and st.session_state.get(key) == former
 
 
 def asked_view() -> str:
@@ -285,7 +285,7 @@ def page(name: str) -> Any | None:
 def _late(given: dict[str, str]) -> bool:
     """Whether the browser still showed our former address when it asked, because the new one was on its way."""
     former, until = st.session_state.get("former_address", ({}, 0.0))
-    return given == former and time.monotonic() < until
+    return given == former and monotonic() < until
 
 
 def _show_in_address() -> None:
@@ -294,5 +294,5 @@ def _show_in_address() -> None:
         st.query_params.from_dict(wanted)
     shown = st.session_state.get("address")
     if shown != wanted:
-        st.session_state["former_address"] = (shown, time.monotonic() + ON_ITS_WAY)
+        st.session_state["former_address"] = (shown, monotonic() + ON_ITS_WAY)
         st.session_state["address"] = wanted

@@ -10,7 +10,7 @@ from pages.common.session import project, state
 from pages.common.session.design import Design
 from pages.common.shell.loops_menu import loops_menu
 from pages.common.shell.sheet_form import sheet_form
-from simc_core.figures import palette
+from pages.common.shell.styles import styles
 from simc_core.notation import latex
 from simc_core.plants.plant import Plant
 
@@ -21,20 +21,6 @@ GROUPS = {
     "Learn": {"accuracy": "Accuracy"},
 }
 TITLES = {name: title for group in GROUPS.values() for name, title in group.items()}
-# Less air round the page than Streamlit leaves: an instrument shows its dials. The line stays one line where it fits.
-STYLE = """<style>
-[data-testid="stMainBlockContainer"] {padding: 3rem 2rem 2rem}
-@media (max-width: 640px) {[data-testid="stMainBlockContainer"] {padding: 4rem 0.75rem 2rem}}
-.st-key-line {border-bottom: 1px solid var(--st-border-color); padding-bottom: 0.4rem}
-.st-key-line .katex {font-size: 1.15em}
-.st-key-line p {padding-block: 0.2rem} /* room for the exponent of a tall fraction */
-/* A transfer function wider than its place scrolls there, and leaves the page as it is. */
-[data-testid="stMain"] :is(p, .katex-display):has(> .katex) {overflow-x: auto; overflow-y: hidden}
-.st-key-line [data-testid="stElementContainer"] {max-width: 100%}
-/* Figures: words and numbers in the colour of the text, on both themes; Streamlit's grey is too weak for small type. */
-.js-plotly-plot :is(.xtick, .ytick, .xtitle, .ytitle, .textpoint, .legend) text,
-.js-plotly-plot :is(text.xtitle, text.ytitle) {fill: var(--st-text-color) !important}
-</style>"""
 CHAIN = ("plant", "half_rule", "tuning", "cascade")
 
 
@@ -49,7 +35,7 @@ def go(place: str) -> None:
 def show(place: str) -> Design:
     """Page settings, the line on top, notices and the sidebar. `place` is a key of TITLES. Returns the design."""
     st.set_page_config(page_title=f"{TITLES[place]} · SIMC", page_icon="🎚️", layout="wide")
-    st.html(f"<style>{palette.css_variables(':root')}</style>{STYLE}")
+    st.html(styles())
     design = state.begin()
     with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
         if tag := design.sheet.tag:
@@ -95,12 +81,12 @@ def _notices() -> None:
         return
     lines = "\n".join(f"- {exact(notice.given)} was ignored: {told(notice.why)}" for notice in ignored)
     with st.container(horizontal=True, vertical_alignment="center"):
-        st.warning(f"Part of the link could not be used, the rest was.\n\n{lines}", width="stretch")
+        st.warning(f"These parts of the link were not understood; the rest was taken.\n\n{lines}", width="stretch")
         st.button("Dismiss", on_click=state.dismiss_ignored)
 
 
 def _take_along() -> None:
-    st.caption("Link to this page and design")
+    st.caption("Share link: this page and design")
     copyable(state.address(), "address_text")
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")

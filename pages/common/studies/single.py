@@ -10,12 +10,15 @@ from pages.common.session.design import Design, Excitation, Tuning
 from simc_core.controllers.forms import Controller
 from simc_core.errors import NotStable, SimcError
 from simc_core.loops.frequency_grid import omega_grid
-from simc_core.loops.loop import FrequencyResponse, Loop, frequency_response
-from simc_core.metrics.performance import Performance, StepMetrics, performance
+from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
+from simc_core.loops.loop import Loop
+from simc_core.metrics.performance import Performance, performance
+from simc_core.metrics.step_metrics import StepMetrics
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.reduction.records import Reduction
-from simc_core.sensitivity.margins import Margins, margins
+from simc_core.sensitivity.margins import margins
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import TimeResponse, simulate
 from simc_core.simulation.horizon import times
 from simc_core.studies.tuned import Tuned, tuned

@@ -6,7 +6,6 @@ from html import escape
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from pages.common.parts import strip
 from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.refusals import explain_refusal
@@ -17,7 +16,7 @@ from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from pages.common.tuning.guards import proposal
 from simc_core.errors import InvalidParameter
-from simc_core.figures import built_input_figure, built_output_figure, palette
+from simc_core.figures import built_input_figure, built_output_figure
 from simc_core.notation import number
 from simc_core.studies.built_advice import error_integral, out_of_reach, protections_compared, sampling_not_in_tuning
 from simc_core.studies.with_actuator import AsBuilt, BuiltNumbers, as_built
@@ -25,26 +24,12 @@ from simc_core.studies.with_actuator import AsBuilt, BuiltNumbers, as_built
 VIEW = "As built"
 HEIGHT = 330  # px
 DIGITS = 3
-NARROW = "@media (max-width: 640px)"
-STYLE = f"""<style>
-.st-key-actuator_inputs {{display: grid; grid-template-columns: repeat(3, 1fr); gap: 0.25rem 0.75rem}}
-.st-key-actuator_inputs label p {{white-space: nowrap}}
-.strip.built {{grid-template-columns: repeat(auto-fit, minmax(9.5rem, 1fr))}}
-{NARROW} {{.st-key-actuator_inputs, .strip.built {{grid-template-columns: 1fr 1fr}}}}
-</style>"""
-MARK = f"""<style>
-[class*="st-key-mark_"] {{border-left: 4px solid {palette.ATTENTION}; padding-left: 0.6rem; gap: 0}}
-[class*="st-key-mark_"] p {{font-size: 0.875rem; line-height: 1.35}}
-.st-key-mark_narrow {{display: none}}
-{NARROW} {{.st-key-mark_narrow {{display: flex}} .st-key-mark_wide {{display: none}}}}
-</style>"""
 
 
 def mark(design: Design, place: str) -> None:
     """Where the loop as built is not the linear one, say so. place: "wide", beside the view, or "narrow", above it."""
     if not design.actuator.on:
         return
-    st.html(MARK)
     with st.container(key=f"mark_{place}"):
         st.markdown(
             f"**As built: {words(design)}.** Margins, metrics and curves are those of the linear loop, except under "
@@ -79,7 +64,6 @@ def words(design: Design) -> str:
 
 def actuator_view(study: Study, design: Design) -> None:
     """Inputs on top; numbers; y and u as built over the linear loop."""
-    st.html(strip.STYLE + STYLE)
     _inputs(design)
     with st.container(key="built_guards", gap="xsmall"):
         reach(design)
@@ -195,7 +179,7 @@ def numbers_html(found: AsBuilt, sheet: Sheet) -> str:
 
 def cells_of(found: AsBuilt, numbers: BuiltNumbers, sheet: Sheet) -> list[tuple[str, str, str]]:
     """label, text, and what it means."""
-    cells = [("IAE as built · linear", _pair(numbers.IAE, numbers.IAE_linear), "∫|r − y| over the time shown")]
+    cells = [("IAE: as built · linear", _pair(numbers.IAE, numbers.IAE_linear), "∫|r − y| over the time shown")]
     if found.actuation.limited:
         cells += [
             (
@@ -212,7 +196,9 @@ def cells_of(found: AsBuilt, numbers: BuiltNumbers, sheet: Sheet) -> list[tuple[
         ]
     if found.actuation.noise:
         both = _pair(numbers.noise_y, numbers.noise_u)
-        cells.append(("Noise on y · u, std", both, "standard deviation of what the noise adds, over the time shown"))
+        cells.append(
+            ("Noise on y · u (std. dev.)", both, "standard deviation of what the noise adds, over the time shown")
+        )
     if found.actuation.h:
         cells.append(("Largest move of u", number(numbers.largest_move, DIGITS), "from one sample to the next"))
     return cells

@@ -2,7 +2,6 @@
 
 import streamlit as st
 
-from pages.common.parts.refusals import STYLE
 from pages.common.parts.symbols import spoken, symbols
 from pages.common.parts.units import with_plain_unit
 from pages.common.session import state
@@ -16,7 +15,6 @@ PLACES = {"error": st.error, "warning": st.warning, "note": st.caption}
 
 def show(study: Study) -> None:
     """Advice on the design, the gravest first; what it proposes is a button."""
-    st.html(STYLE)
     with st.container(key="guards", gap="xsmall"):
         for item in advice(study.tuned) if study.tuned else advice_on_settings(study.loop.plant, study.controller):
             proposal(item)
@@ -47,10 +45,13 @@ def poles(study: Study) -> None:
     with st.expander("Dominant closed-loop poles"):
         unit = state.design_now().sheet.time_unit
         rows = [pole_row(pole, unit) for pole in dominant_poles(study.loop)]
-        st.dataframe(rows, hide_index=True, width="content")
+        if rows:
+            st.dataframe(rows, hide_index=True, width="content")
+        else:
+            st.caption("None can be shown of which it is certain that no other is further to the right.")
         st.caption(
             "Roots of $1 + L(s) = 0$, the rightmost of infinitely many; damping $\\zeta = -\\mathrm{Re}\\,s/|s|$. "
-            "A pole that a zero of the controller hides from set-point steps is still excited by load disturbances."
+            "A pole that a zero of the controller cancels for set-point changes is still excited by load disturbances."
         )
 
 
@@ -62,5 +63,5 @@ def pole_row(pole: ClosedLoopPole, unit: str = "") -> dict[str, str]:
         "damping ζ": number(pole.zeta),
         with_plain_unit("frequency |s|", unit and f"rad/{unit}"): number(pole.omega_n),
         with_plain_unit("time constant", unit): number(-1 / s.real) if s.real < 0 else "does not decay",
-        "hidden from r": "yes" if pole.cancelled else "",
+        "cancelled for set-point changes": "yes" if pole.cancelled else "",
     }

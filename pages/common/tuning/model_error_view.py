@@ -74,9 +74,9 @@ def summary(study: Study, found: Robustness, percent: int) -> str:
 
 def limits(loop: Loop, found: Robustness, sheet: Sheet) -> str:
     """The exact largest changes of k and of theta, each alone."""
-    high = "any increase" if math.isinf(found.k_high) else f"up to × {number(found.k_high)}"
-    low = "any decrease" if found.k_low == 0 else f"down to × {number(found.k_low)}"
-    more = "any addition" if math.isinf(found.theta_more) else f"+ {time_text(found.theta_more, sheet)}"
+    high = "any higher" if math.isinf(found.k_high) else f"up to {number(found.k_high)} times"
+    low = "any lower" if found.k_low == 0 else f"down to {number(found.k_low)} times"
+    more = "any longer" if math.isinf(found.theta_more) else f"up to {time_text(found.theta_more, sheet)} longer"
     theta = loop.plant.theta
     share = f" ({100 * found.theta_more / theta:.3g} %)" if theta and math.isfinite(found.theta_more) else ""
-    return f"Alone, exactly: $k$ {high} and {low}; $\\theta$ {more}{share}."
+    return f"One at a time, exact: gain {high}, or {low}; dead time {more}{share}."

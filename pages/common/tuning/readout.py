@@ -2,13 +2,13 @@
 
 import streamlit as st
 
-from pages.common.parts.strip import STYLE, Reading, cell_html, gain_margin, pair, peak_html, reading
+from pages.common.parts.strip import Reading, cell_html, gain_margin, pair, peak_html, reading
 from pages.common.studies.single import Study
 
 
 def readout(study: Study) -> None:
     """The strip; for a loop that is not stable it says so and holds no numbers."""
-    st.html(STYLE + strip_html(study))
+    st.html(strip_html(study))
 
 
 def strip_html(study: Study) -> str:
@@ -33,10 +33,10 @@ def readings(study: Study) -> list[Reading]:
         reading("PM_deg", judged.PM_deg),
         reading("delay_margin", judged.delay_margin),
         reading("IAE_setpoint", metrics.setpoint.IAE),
-        reading("IAE_load", metrics.disturbance.IAE),
+        reading("IAE_disturbance", metrics.disturbance.IAE),
         reading("Mt", judged.Mt),
-        pair("TV set point · load", ("TV_setpoint", "TV_load"), TV),
+        pair("TV set point · load", ("TV_setpoint", "TV_disturbance"), TV),
         reading("overshoot", metrics.setpoint.overshoot),
-        pair("Settling set point · load", ("settling_setpoint", "settling_load"), settling),
-        reading("peak_load", metrics.disturbance.peak),
+        pair("Settling set point · load", ("settling_setpoint", "settling_disturbance"), settling),
+        reading("peak_disturbance", metrics.disturbance.peak),
     ]

@@ -11,7 +11,7 @@ from pages.common.parts.settings_text import UNITS
 from pages.common.parts.units import unit_of
 from pages.common.session import state
 from pages.common.studies.single import Study, study_of_settings
-from simc_core.controllers.forms import FORMS, Controller, IController, IdealPid
+from simc_core.controllers.forms import FORMS, Controller, IdealPid
 from simc_core.errors import InvalidParameter, SimcError
 from simc_core.plants.plant import Plant
 from simc_core.studies.retune import what_changes
@@ -66,7 +66,7 @@ def my_settings(made: Study | None) -> None:
 def settings_fields(controller: Controller, key: str, take: Callable[[Controller], None]) -> None:
     """The settings of a controller as number fields, in its own form: sizes of gains, and the action beside them."""
     _action(controller, key, take)
-    names = [*controller.SETTINGS, *(() if isinstance(controller, IController) else ("tau_F", "b", "c"))]
+    names = [*controller.SETTINGS, *controller.OPTIONAL]
     for row in (names[:3], names[3:]):
         places = st.columns(3, gap="small") if row else ()
         for name, place in zip(row, places, strict=False):

@@ -28,25 +28,6 @@ STEPS_PER_DECADE = 20
 SAME = 1e-9  # relative; one tau_c typed and chosen
 SLOW = ": slower than the plant alone, or than 8 θ for an integrating one"
 SHORTEST, LONGEST = -1, 2  # decades of tau_c/theta on the slider
-STYLE = """<style>
-.st-key-presets, .st-key-multiples {display: grid; grid-template-columns: 1fr 1fr; gap: 0.25rem}
-.st-key-presets button, .st-key-multiples button {min-height: 2rem; padding: 0 0.5rem}
-.st-key-tuning {container-type: inline-size}
-@container (max-width: 740px) { /* what moves comes first, what is set once below it */
-  .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) {flex-direction: column-reverse}
-  .st-key-tuning [data-testid="stHorizontalBlock"]:has([data-testid="stTabs"]) > [data-testid="stColumn"] {
-    flex: 1 1 auto; width: 100%; min-width: 100%
-  }
-}
-</style>"""
-
-
-SETTINGS_STYLE = """<style>
-.settings {display: flex; flex-wrap: wrap; gap: 0.1rem 1.25rem; font-variant-numeric: tabular-nums}
-.settings small {display: block; font-size: 0.8rem; line-height: 1.2}
-.settings b {font-size: 1.5rem; font-weight: 600; line-height: 1.25}
-.settings .action b {font-size: 1rem; line-height: 1.9}
-</style>"""
 
 
 def tau_c_control(study: Study, slider: bool = True) -> None:
@@ -54,7 +35,6 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
 
     slider=False: without it, where the live instrument has one.
     """
-    st.html(STYLE)
     model, tau_c = study.model, study.tau_c
     if isinstance(model, UnstableDelay):
         st.markdown(f"$\\tau_c = \\theta$ = **{time_text(tau_c, state.design_now().sheet)}**")
@@ -68,7 +48,7 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
             _slider(model, tau_c)
     design_number(
         "tau_c",
-        "τc exactly",
+        "τc, exact",
         show=lambda value: value or tau_c,
         quantity="time",
         key="tau_c_exact",
@@ -140,7 +120,7 @@ def settings(study: Study) -> None:
         return
     sheet = state.design_now().sheet
     st.markdown(f"$C(s) = {formula(shown, form)}$")
-    st.html(SETTINGS_STYLE + settings_html(shown, sheet))
+    st.html(settings_html(shown, sheet))
     copyable(as_text(study.controller, form, sheet), "settings_text")
 
 

@@ -1,19 +1,24 @@
 """Constructor calls of MATLAB, Octave, python-control, scipy and Scilab: tf, zpk, TransferFunction, syslin, delay."""
 
 import re
+from collections.abc import Mapping
 from fractions import Fraction
 
 from simc_core.errors import InvalidParameter
 from simc_core.numbers import read_exact_numbers
 from simc_core.numbers.one import read_exact
 from simc_core.numbers.several import program_list
-from simc_core.plants.parse_values import ONE, S, Value, constant, inverse, polynomial, times
+from simc_core.plants.parse_values import ONE, S, Value, constant, inverse, is_zero, number_of, polynomial, times
 from simc_core.plants.pasted.grammar import DEEPEST, Reader
-from simc_core.plants.pasted.tokens import Token, bare
+from simc_core.plants.pasted.tokens import HINTS, Token, bare
 
 DELAYS = ("inputdelay", "outputdelay", "iodelay")
+SAMPLING = ("dt", "ts")
 OF_NO_MEANING = ("variable", "timeunit", "name", "inputs", "outputs", "inputname", "outputname")
+NUMERATORS, DENOMINATORS = ("num", "numerator"), ("den", "denominator")
 CONTINUOUS = ("", "0", "0.0", "none", "'c'", '"c"')
+LONE_VARIABLE = re.compile(r"(?<![^\W\d_])[sp](?!\w)")
+NAME = re.compile(r"(?<![\w.])[^\W\d]\w*")
 COMPLEX = re.compile(
     r"(?P<real>[+-]?[\d.]+(?:e[+-]?\d+)?)?(?P<imag>[+-](?:[\d.]+(?:e[+-]?\d+)?)?)\*?[ij]", re.IGNORECASE
 )
@@ -21,11 +26,11 @@ COMPLEX = re.compile(
 
 def read_call(reader: Reader, token: Token) -> Value:
     """The value of a call token, tf([1 2], [1 3 2], 'InputDelay', 0.5)."""
-    opened = token.text.index("(")
-    function = bare(token.text[:opened].strip()).lower().rpartition(".")[2]
-    parts = _arguments(token.text, opened + 1)
+    written = token.text.partition("(")[0].strip()
+    function = bare(written).lower().rpartition(".")[2]
+    parts = _arguments(token.text, token.text.index("(") + 1)
     try:
-        return _value(function, token.text[:opened].strip(), reader, token, parts)
+        return _value(function, written, reader, token, parts)
     except InvalidParameter as error:
         raise reader.fault(str(error), token.at) from None
 
@@ -36,20 +41,30 @@ def _value(function: str, written: str, reader: Reader, token: Token, parts: lis
         return Value((ONE,), (), _number("the dead time", given[0]), token.at)
     if function == "syslin" and given and given[0].strip("'\"") == "c":
         return _syslin(reader, token, parts)
-    if function in ("zpk", "zerospolesgain") and len(given) in (3, 4):
+    if function == "lti" and len(given) == 4:
+        raise InvalidParameter("state space is not read: write numerator and denominator, as in tf([1 2], [1 3 2])")
+    if (function in ("zpk", "zerospolesgain") and len(given) in (3, 4)) or (function == "lti" and len(given) == 3):
         _check_continuous(written, given[3:])
         zeros, poles = _roots("zeros", given[0]), _roots("poles", given[1])
         value = times(times(zeros, inverse(poles)), constant(_number("gain", given[2])))
     elif function in ("tf", "lti", "transferfunction", "transferfunctioncontinuous") and len(given) in (2, 3):
-        if len(given) == 3 and written.lower() == "transferfunction":
+        if len(given) == 3 and given[2] in ("s", "p"):  # sympy
+            given.pop()
+        elif len(given) == 3 and written.lower() == "transferfunction":
             theta += _number("the dead time", given.pop())
         _check_continuous(written, given[2:])
-        numerator, denominator = polynomial(_list("numerator", given[0])), polynomial(_list("denominator", given[1]))
-        if not any(map(any, denominator.num)):
+        numerator, denominator = (
+            _polynomial(reader, token, name, part)
+            for name, part in zip(("numerator", "denominator"), given, strict=False)
+        )
+        if is_zero(denominator):
             raise InvalidParameter("denominator must not be zero, got 0")
         value = times(numerator, inverse(denominator))
-    elif function == "tf" and len(given) == 1 and given[0].strip("'\"") in ("s", "p"):
+        theta += value.theta
+    elif function in ("tf", "zpk") and len(given) == 1 and given[0].strip("'\"") in ("s", "p"):
         return Value((S,))
+    elif function in ("tf", "zpk") and given and given[0].strip("'\"") in ("z", "q"):
+        raise InvalidParameter(HINTS["z"])
     else:
         raise InvalidParameter(
             f"{written}(...) is not understood with these arguments: write numerator and denominator, "
@@ -84,20 +99,31 @@ def _options(written: str, parts: list[tuple[str, int]]) -> tuple[list[str], Fra
         named = re.fullmatch(r"(\w+)\s*[=:]\s*(.*)", word, re.DOTALL)
         key = (named[1] if named else word.strip("'\"")).lower()
         quoted = word[:1] in "'\"" and word[:1] != ""
-        if not named and not (quoted and words and key in (*DELAYS, *OF_NO_MEANING)):
+        if not named and not (quoted and words and key in (*DELAYS, *SAMPLING, *OF_NO_MEANING)):
             given.append(word)
             continue
         value = named[2] if named else words.pop(0)
         if key in DELAYS:
             theta += _number(key, value)
-        elif key in ("dt", "ts"):
+        elif key in NUMERATORS:
+            given.insert(0, value)
+        elif key in DENOMINATORS:
+            given.append(value)
+        elif key in SAMPLING:
             _check_continuous(written, [value])
+        elif key == "variable" and value.strip("'\"") not in ("s", "p"):
+            raise InvalidParameter(f"{written}(...) in {value} is a sampled model: {HINTS['z']}")
         elif key not in OF_NO_MEANING:
             raise InvalidParameter(f"'{key}' in {written}(...) is not known: leave it out")
     return given, theta
 
 
 def _check_continuous(written: str, more: list[str]) -> None:
+    if more and more[0].strip()[:1] in ("[", "{"):
+        raise InvalidParameter(
+            f"{written}(...) has too many arguments: write decimal points, and commas between arguments alone, "
+            "as in tf(0.5, [10 1])"
+        )
     if more and more[0].strip().lower() not in CONTINUOUS:
         raise InvalidParameter(
             f"the number {more[0].strip()[:20]} at the end of {written}(...) is a sampling time, and sampled models "
@@ -107,20 +133,50 @@ def _check_continuous(written: str, more: list[str]) -> None:
 
 def _syslin(reader: Reader, token: Token, parts: list[tuple[str, int]]) -> Value:
     """syslin('c', num/den) and syslin('c', num, den)."""
-    if reader.depth >= DEEPEST:
-        raise reader.fault(f"brackets must not be nested more than {DEEPEST} deep", token.at)
-    values = []
-    for part, at in parts[1:3]:
-        start = token.at + at
-        inner = Reader(reader.text, reader.plain, start, start + len(part), reader.names, reader.call)
-        inner.depth = reader.depth + 1
-        values.append(inner.plant())
+    values = [_inside(reader, token.at + at, token.at + at + len(part)) for part, at in parts[1:3]]
     if not values:
         raise InvalidParameter("syslin needs a transfer function, as in syslin('c', 2/(5*%s+1))")
     return values[0] if len(values) == 1 else reader.divided(values[0], values[1], token.at)
 
 
-def _list(name: str, text: str) -> list[Fraction]:
+def _inside(reader: Reader, start: int, stop: int) -> Value:
+    """The value of an argument that is itself a transfer function."""
+    if reader.depth >= DEEPEST:
+        raise reader.fault(f"brackets must not be nested more than {DEEPEST} deep", start)
+    inner = Reader(reader.text, reader.plain, start, stop, reader.names, reader.call)
+    inner.depth = reader.depth + 1
+    value = inner.plant()
+    reader.used |= inner.used
+    return value
+
+
+def _polynomial(reader: Reader, token: Token, name: str, part: str) -> Value:
+    """Coefficients, their name, or a polynomial in s: [T 1], den, 10*s + 1."""
+    if bare(part) in reader.names:
+        reader.used.add(bare(part))
+        return reader.names[bare(part)]
+    if "[" not in part and LONE_VARIABLE.search(part):
+        start = reader.plain.index(part, token.at)
+        return _inside(reader, start, start + len(part))
+    return polynomial(coefficients(name, with_numbers(part, reader.names, reader.used)))
+
+
+def with_numbers(text: str, names: Mapping[str, Value], used: set[str]) -> str:
+    """[T 1] as [10 1] where the name T has this value."""
+
+    def number(found: re.Match) -> str:
+        name = bare(found[0])
+        value = number_of(names[name]) if name in names else None
+        if value is None:
+            return found[0]
+        used.add(name)
+        return str(value)
+
+    return NAME.sub(number, text)
+
+
+def coefficients(name: str, text: str) -> list[Fraction]:
+    """The numbers of a list as programs write it, or of conv([1 2], [3 4])."""
     text = text.strip().rstrip("'.")
     if re.fullmatch(r"\[[^\[\](){};]*\]", text):
         return program_list(name, text)

@@ -6,6 +6,7 @@ Everything is replaced by blanks, so that positions stay those of the text as ty
 import re
 
 from simc_core.numbers.signs import INVISIBLE, tidied
+from simc_core.plants.pasted.raised import with_superscripts
 
 COMMENT = re.compile(r"(?<![^\s;)\]}])(?<!\d )[%#]+(?![sp]\b|pi\b|e\b)(?P<words>\s*[^\W\d_][^\n]*)?")
 PRINTED = re.compile(
@@ -14,19 +15,28 @@ PRINTED = re.compile(
     r"|Transfer function\b.*?output\s*'?\w*'?\s*(?:\.\.\.|:)?"
     r"|From input\b.*?to output\b.*?(?:\.\.\.|:)"
     r"|Transfer function:"
-    r"|Continuous-time[\w/ -]*?(?:function|model)\.?"
+    r"|TransferFunction\{[^{}]*\}"
+    r"|Continuous-time[\w/ -]*?(?:function model|function|model)\.?"
+    r"|Model Properties"
     r"|\by\d+:(?=\s)"
-    r"|\bsyms\s+[sp]\b",
+    r"|\bsyms\s+[sp]\b"
+    r"|\bfrom\s+[\w.]+\s+import\s+(?:\w+(?:\s*,\s*\w+)*|\*)|\bimport\s+[\w.]+(?:\s+as\s+\w+)?"
+    r"|\bpkg\s+load\s+\w+"
+    r"|(?<=[,(])\s*\.{3}(?=\s)",
     re.IGNORECASE,
 )
-LATEX = re.compile(r"\\(?:begin|end)\{[a-z]+\*?\}|\\label\{[^{}]*\}|\\nonumber|\\tag\{[^{}]*\}|\\\\|&")
+LATEX = re.compile(
+    r"\\(?:begin|end)\{[a-z]+\*?\}|\\label\{[^{}]*\}|\\nonumber|\\tag\{[^{}]*\}|\\q?quad(?![a-z])|\\\\|\\(?=\s)|&"
+)
 UNIT = re.compile(r"(?<=[\s)])\[\s*(?!(?:[sp]|exp)\s*\])[^\W\d_°]*[%°]?[^\W\d_]*(?:\s*/\s*(?:°?[^\W\d_]+|%))?\s*\]\s*$")
 ROMAN = re.compile(r"\{\s*\\rm\s+(\w+)\s*\}")
 QUOTES = ("$$", "$", "'", '"', "```", "`")
 WRAPPERS = (*((quote, quote) for quote in QUOTES), (r"\(", r"\)"), (r"\[", r"\]"))
 LATEX_COMMA = re.compile(r"(?<=\d)\{,\}(\d+)")
-SHORT_BAR = re.compile(r"(?<=\n)[ \t]*-{1,2}[ \t]*(?=\n)")
+SHORT_BAR = re.compile(r"(?<=\n)[ \t]*[-─━⎯]{1,2}[ \t]*(?=\n)")
+LONG_BAR = re.compile(r"[─━⎯―_]{3,}")
 BAR = re.compile(r"-{3,}")
+BESIDE_BAR = re.compile(r"(?<!\S)[^\W\d_][^\s=]*(?:\s*\(\s*[sp]\s*\))?[ \t]*=(?=[ \t]*(?:-{3,}|═))", re.IGNORECASE)
 TRAILING = ";., \t\n\r"
 
 
@@ -35,8 +45,10 @@ def without_clutter(text: str) -> str:
     plain = tidied(text)
     for sign in INVISIBLE:
         plain = plain.replace(sign, " ") if plain.startswith(sign) or plain.endswith(sign) else plain
-    plain = LATEX_COMMA.sub(r",\1  ", _blanked(PRINTED, plain))
-    plain = SHORT_BAR.sub(lambda found: found[0].replace("-", "═"), plain)
+    plain = LATEX_COMMA.sub(r",\1  ", with_superscripts(_blanked(PRINTED, plain)))
+    plain = SHORT_BAR.sub(lambda found: re.sub(r"\S", "═", found[0]), plain)
+    plain = LONG_BAR.sub(lambda found: "═" * len(found[0]), plain)
+    plain = _blanked(BESIDE_BAR, plain)
     drawn = bool(BAR.search(plain) or "═" in plain)
     plain = COMMENT.sub(lambda found: _comment(found, drawn), plain)
     plain = _blanked(UNIT, _blanked(LATEX, plain))

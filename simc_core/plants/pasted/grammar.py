@@ -36,7 +36,14 @@ from simc_core.plants.parse_values import (
     times,
     too_large,
 )
-from simc_core.plants.pasted.shapes import check_lost_powers, check_lost_tens, check_one_variable, with_bar
+from simc_core.plants.pasted.shapes import (
+    check_lost_powers,
+    check_lost_tens,
+    check_numbered,
+    check_one_variable,
+    check_raised,
+    with_bar,
+)
 from simc_core.plants.pasted.sums_of_delays import advice
 from simc_core.plants.pasted.tokens import Token, bare, superscript_delay, tokens
 
@@ -69,9 +76,12 @@ class Reader:
         self.plain = plain
         self.names = names
         self.call = call
-        self.tokens = with_bar(list(tokens(text, plain, start, stop, names)))
+        row = list(tokens(text, plain, start, stop, names))
+        check_raised(text, plain, row)
+        self.tokens = with_bar(row)
         check_lost_powers(text, self.tokens)
         check_lost_tens(text, self.tokens)
+        check_numbered(text, plain, self.tokens)
         check_one_variable(text, self.tokens)
         self.next = 0
         self.depth = 0
@@ -172,11 +182,10 @@ class Reader:
             )
         if before.kind == "list" and token.kind not in EXPONENTIALS:
             raise self.fault("after a list of coefficients write / or *")
+        if token.kind == "list":
+            raise self.fault("a list of coefficients stands alone: write tf([2], [10 1]), or / or * before it")
         if slashed and token.kind not in EXPONENTIALS:
-            raise self.fault(
-                "after '/' it is not clear how far the denominator goes: write 1/((s+1)(2s+1)) if this belongs "
-                "to it, or put * before what does not"
-            )
+            raise self.fault("the denominator is unclear: write 1/((s+1)(2s+1)) or (1/(s+1))*(2s+1)")
 
     def is_power_of_ten(self) -> bool:
         """Whether the present number is 10^3 or 1e3 after another number."""
@@ -249,7 +258,7 @@ class Reader:
                 return times(MINUS_ONE, self.power())
             case "sign" if token.text in CLOSING.values():
                 raise self.fault(f"'{token.text}' closes a bracket that was not opened", token.at)
-        raise self.fault(f"a number, s, exp or a bracket is expected here, got {_named(token)}", token.at)
+        raise self.fault(f"a number, s, exp or a bracket was expected here; found {_named(token)}", token.at)
 
     def names_value(self, token: Token) -> Value:
         name = bare(token.text)
@@ -262,7 +271,10 @@ class Reader:
             raise self.fault(f"a number must be below 1e{LARGEST_EXPONENT}, got {token.text[:20]}", token.at)
         following = self.token
         if following.kind == "number" and following.at == token.at + len(token.text):
-            raise self.fault(f"'{quoted(token.text + following.text)}' is not a number", token.at)
+            raise self.fault(
+                f"'{quoted(token.text + following.text)}' is not a number: write one decimal point and no other",
+                token.at,
+            )
         if " " in digits and "+" not in self.text and " " in self.text[token.at : token.at + len(token.text)]:
             # a link whose + was not written %2B has lost all of them: 1 200s may have been 1+200s
             raise self.fault(
@@ -298,7 +310,8 @@ class Reader:
     def group(self) -> Value:
         opened = self.take(*CLOSING)
         if not opened:
-            raise self.fault(f"an opening bracket is expected here, got {_named(self.token)}")
+            braces = " as in \\frac{2}{10s+1}" if self.last.kind == "frac" else ""
+            raise self.fault(f"an opening bracket is expected here{braces}, got {_named(self.token)}")
         self.depth += 1
         if self.depth > DEEPEST:
             raise self.fault(f"brackets must not be nested more than {DEEPEST} deep", opened.at)
@@ -326,8 +339,10 @@ class Reader:
         return Value((ONE,), (), -slope, token.at)
 
     def bare_exponent(self) -> Value:
-        """-3s, -s, -3*s of e^-3s: a sign, at most one number or name, and one s."""
+        """-3s, -s, -3*s, -(3s) of e^-3s: a sign, at most one number or name, and one s; or a sign and a bracket."""
         value = MINUS_ONE if self.take("-") else Value((ONE,))
+        if self.token.text in CLOSING:
+            return times(value, self.group())
         if self.token.kind in ("number", "name"):
             value = times(value, self.atom())
             self.take("*")

@@ -7,12 +7,15 @@ from simc_core.numbers.refusal import quoted
 from simc_core.plants.parse_values import ONE, Value
 from simc_core.plants.pasted.statements import Statement
 
-GAINS = ("k", "km", "kp", "k0", "ks", "gain")
+GAINS = ("k", "km", "kp", "k0", "ks", "gain", "processgain")
 DELAYS = (
-    "theta", "thetam", "thetap", "theta0", "l", "lm", "taum", "taud", "td", "tdelay", "delay", "deadtime", "t0",
-    "inputdelay", "outputdelay", "iodelay",
+    "theta", "thetam", "thetap", "theta0", "l", "lm", "taum", "taud", "td", "tdelay", "delay", "deadtime", "timedelay",
+    "transportdelay", "t0", "inputdelay", "outputdelay", "iodelay",
 )  # fmt: skip
-LAGS = ("tau", "taup", "tau1", "tau2", "tau3", "tau0", "t", "tm", "tp", "t1", "t2", "t3", "timeconstant")
+LAGS = (
+    "tau", "taup", "tau1", "tau2", "tau3", "tau0", "t", "tm", "tp", "t1", "t2", "t3", "tp1", "tp2", "tp3",
+    "timeconstant", "lag", "lag1", "lag2", "lag3",
+)  # fmt: skip
 DAMPING = ("zeta", "zeta0", "xi")
 ENOUGH = "write gain, lag and dead time as in k=2, tau=10, theta=3, or a transfer function as in 2 e^{-3s}/(10s+1)"
 

@@ -1,9 +1,12 @@
 """What only shows in a row of tokens: a fraction printed over three lines, a superscript lost on the way."""
 
 import re
+from itertools import pairwise
 
 from simc_core.errors import ParseError
 from simc_core.plants.pasted.tokens import Token
+
+SIGNS = ("+", "-", "*", "/", "^", "**")
 
 
 def with_bar(row: list[Token]) -> list[Token]:
@@ -61,26 +64,90 @@ def check_lost_powers(text: str, row: list[Token]) -> None:
 
 
 def check_lost_tens(text: str, row: list[Token]) -> None:
-    """Refuse 2·103 and 2·10-3, where a power of ten has lost its superscript; a program's * is taken at its word."""
-    for times, ten, after in zip(row, row[1:], row[2:], strict=False):
-        if times.text != "*" or text[times.at] in "*." or ten.kind != "number" or ten.text[:2] != "10":
+    """Refuse 2·103 and 2·10-3, where a power of ten has lost its superscript; a program's 2*103 is what it says."""
+    for times, ten, after, last in zip(row, row[1:], row[2:], row[3:], strict=False):
+        if times.text != "*" or ten.kind != "number" or ten.text[:2] != "10":
             continue
-        if ten.text[2:].isdigit() or (ten.text == "10" and after.text == "-" and after.at == ten.at + 2):
+        tight = ten.text == "10" and after.text == "-" and after.at == ten.at + 2 and last.at == ten.at + 3
+        if tight and last.kind == "number":
             raise ParseError(
-                f"'{ten.text}' after a multiplication can be read in two ways: write 10^3 if it is a power of ten, "
-                f"or * before it if it is not (position {ten.at + 1})",
+                f"'10-{last.text}' after a multiplication can be read in two ways: write 10^-{last.text} if it is a "
+                f"power of ten, or 10 - {last.text} with blanks if it is a difference (position {ten.at + 1})",
+                text,
+                ten.at,
+            )
+        if text[times.at] not in "*." and ten.text[2:].isdigit():
+            raise ParseError(
+                f"'{ten.text}' after a multiplication can be read in two ways: write 10^{ten.text[2:]} if it is a "
+                f"power of ten, or * before it if it is not (position {ten.at + 1})",
                 text,
                 ten.at,
             )
 
 
-def check_one_variable(text: str, row: list[Token]) -> None:
-    """Refuse a text in s and p."""
-    variables = {token.text.strip("%").lower(): token for token in row if token.kind == "s"}
-    if len(variables) > 1:
-        at = variables["p"].at
+def check_raised(text: str, plain: str, row: list[Token]) -> None:
+    """Refuse a drawn fraction with gaps as exponents leave them that were printed on a line of their own."""
+    if not any(token.kind == "bar" for token in row):
+        return
+    for token, after in pairwise(row):
+        gap = plain[token.at + len(token.text) : after.at]
+        wide = len(gap) > 1 and not gap.strip()
+        if wide and (
+            (after.kind == "s" and token.kind == "number") or (token.kind == "s" and after.text in ("+", "-"))
+        ):
+            at = after.at if after.kind == "s" else token.at
+            raise ParseError(
+                "the wide gap at this s can be a power on a line of its own: write s^2 for s squared, and 2 s with one "
+                f"blank (position {at + 1})",
+                text,
+                at,
+            )
+
+
+def check_numbered(text: str, plain: str, row: list[Token]) -> None:
+    """Refuse the number of an equation, (3), or of a list, 3., which would be a factor."""
+    first, last = row[0], row[-4:]
+    point = first.kind == "number" and first.text[-1] == "." and row[1].kind not in ("s", "end")
+    if point and _blank(plain, row[1]) and row[1].text not in SIGNS:
         raise ParseError(
-            f"there are two variables, s and p: write one, or give p a value (position {at + 1})", text, at
+            f"'{first.text}' can be the number of a list: leave it out, or write {first.text}0 if it is a factor "
+            f"(position {first.at + 1})",
+            text,
+            first.at,
+        )
+    before = len(row) > 4 and _lone_number(row[:3]) and _blank(plain, row[3])
+    before = before and row[3].text not in SIGNS and row[3].kind != "list"
+    behind = len(row) > 4 and _lone_number(last) and _blank(plain, last[0]) and row[-5].text not in SIGNS
+    if before or (behind and row[-5].kind not in ("exp", "e", "frac", "sqrt")):
+        number = row[1] if before else last[1]
+        raise ParseError(
+            f"'({number.text})' can be the number of an equation: leave it out, or write * beside it if it is a factor "
+            f"(position {number.at})",
+            text,
+            number.at - 1,
+        )
+
+
+def _lone_number(row: list[Token]) -> bool:
+    """Whether the tokens begin with (3) or [3]."""
+    return row[0].text in ("(", "[") and row[1].kind == "number" and row[2].text in (")", "]")
+
+
+def _blank(plain: str, token: Token) -> bool:
+    """Whether a blank stands before the token."""
+    return plain[token.at - 1 : token.at].isspace()
+
+
+def check_one_variable(text: str, row: list[Token]) -> None:
+    """Refuse a text in s and p, or in s and S."""
+    variables = {token.text.strip("%"): token for token in row if token.kind == "s"}
+    if len(variables) > 1:
+        first, second, *_ = variables
+        at = variables[second].at
+        raise ParseError(
+            f"there are two variables, {first} and {second}: write one, or give {second} a value (position {at + 1})",
+            text,
+            at,
         )
 
 

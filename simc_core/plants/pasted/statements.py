@@ -6,16 +6,20 @@ from typing import NamedTuple
 from simc_core.plants.pasted.tokens import bare
 
 WORD = (
-    r"(?:dead[ -]?time|time constant|\\(?:hat|tilde|bar|mathrm|mathbf|text)\s*\{[^{}=]{1,20}\}|\\?[^\W\d_]\w*)"
+    r"(?:dead[ -]?time|time constant|(?:time|transport) delay|process gain|"
+    r"\\(?:hat|tilde|bar|mathrm|mathbf|text)\s*\{[^{}=]{1,20}\}|\\?[^\W\d_]\w*)"
     r"(?:_\{[^{}=]{1,20}\}|\^\{?\w\}?|')*(?:\.[^\W\d_]\w*)*(?:\s*\(\s*(?:[spSzt]|jw|jω|iω)\s*\))?"
 )
 RATIO = rf"(?:\\[dt]?frac\s*\{{\s*{WORD}\s*\}}\s*\{{\s*{WORD}\s*\}}|{WORD}(?:\s*/\s*{WORD})?)"
-ASSIGNMENT = re.compile(rf"(?<![\w.\\/*^+)}}\]-])(?P<name>{RATIO})\s*(?P<sign>:=|==?|≈|≅|≃|≡|~=)")
+ASSIGNMENT = re.compile(rf"(?<![\w.\\/*^+)}}\]-])(?P<name>{RATIO})\s*(?P<sign>:=|==?|≈|≅|≃|≡|~=|:(?=\s*[-+]?[\d.,]))")
 TITLE = re.compile(r"\s*(?P<name>[^\W\d_][\w .]{0,40}?(?:\(\s*[sp]\s*\))?)\s*:(?![=])")
 VARIABLE = re.compile(
-    r"\s*(?:\w+\.)*(?:tf\s*\(\s*['\"][sp]['\"]\s*\)|TransferFunction\.s|%s|poly\s*\(\s*0\s*,\s*['\"]s['\"]\s*\)"
+    r"\s*(?:\w+\.)*(?:(?:tf|zpk)\s*\(\s*['\"][sp]['\"]\s*\)|TransferFunction\.s|%s|poly\s*\(\s*0\s*,\s*['\"]s['\"]\s*\)"
     r"|(?:Symbol|symbols|var)\s*\(\s*['\"][sp]['\"]\s*\))\s*;?\s*$"
 )
+# words before the first name, Transfer function G(s) = ...: letters alone, no name of one or two
+IN_CAPTION = r"(?:(?!(?:exp|sqrt)\b)[^\W\d_]{3,}|of|to|is|in|as|an|a)"
+CAPTION = re.compile(rf"\s*{IN_CAPTION}(?:[\s,.]+{IN_CAPTION})*[\s,.]*")
 JOINS = re.compile(r"(?:[\s;,]|\b(?:and|with|where|for|then)\b)+$")
 PLANT_LETTERS = ("G", "P", "H", "W", "Y", "y", "g", "h", "sys", "plant", "process", "tf", "F")
 
@@ -58,7 +62,8 @@ def statements(plain: str) -> list[Statement]:
         last = i + 1 == len(heads)
         if not plain[start:stop].strip() and (not last or parts):
             continue
-        if not VARIABLE.match(plain, start, stop):
+        caption = not name and not last and CAPTION.fullmatch(plain, start, stop)
+        if not caption and not VARIABLE.match(plain, start, stop):
             parts += _split(plain, Statement(name, start, stop, at))
     return parts
 

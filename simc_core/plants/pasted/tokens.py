@@ -18,15 +18,15 @@ class Token(NamedTuple):
 
 RAISED = SUPERSCRIPTS[:10]
 LETTER = rf"(?:(?![{RAISED}½¼¾ˢᵖ])[^\W\d_])"
-WITH_POINT = r"[1-9]\d{0,2}(?:,\d{3})+\.\d+"
+WITH_POINT = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.|(?:\.\d{3})+,)\d+"
 GROUPED = r"[1-9]\d{0,2}(?:[ ']\d{3})+(?![\d])(?:[.,]\d+)?"
-SIMPLE = r"\d+(?:[.,]\d*)?|[.,]\d+"
+SIMPLE = r"\d+(?:\.\d*|,\d+)?|[.,]\d+"
 LIST_ITEM = re.compile(rf"[+-]?(?:{SIMPLE})(?:[eE][+-]?\d+)?")
 SPACE = re.compile(r"(?:\s|\\(?:left|right|[bB]igg?[lr]?|displaystyle|limits|quad|qquad)(?![a-z])|\\[,;:! ]|~)+")
 TIMES = re.compile(rf"\\(?:cdot|times)(?![a-z])|(?<=[\d\s])x(?=\s*10(?:\^|\*\*|[⁻{RAISED}]))")
 TOKEN = re.compile(
     rf"(?P<number>(?:{WITH_POINT}|{GROUPED}|{SIMPLE})(?:[eE][+-]?\d+)?)"
-    rf"|(?P<bar>-{{3,}}|═+|[─━]{{3,}}|_{{3,}})"
+    r"|(?P<bar>-{3,}|═+)"
     r"|(?P<list>\[[\d.,eE+\s-]*\])"
     rf"|(?P<delay>e[⁻⁺]?[{RAISED}]*[ˢᵖ])"
     rf"|(?P<word>\\(?:mathrm|text|operatorname|mathit|rm)\s*\{{\s*\w+\s*\}}|[%\\]?{LETTER}(?:{LETTER}|[0-9]|_\w|_\{{\w+\}})*"
@@ -55,7 +55,41 @@ HINTS = {
     "jω": "write the transfer function in s, not its frequency response",
     "log": "work it out and write a number",
     "feedback": "work out the closed loop first, or enter the plant alone",
+    "poly": "write its factors, as in (s+1)(s+2)",
+    **dict.fromkeys(
+        ("q", "filt", "dlti", "drss", "c2d"), "a sampled model is not read: write the transfer function in s"
+    ),
+    "series": "write the two with * between them",
+    "parallel": "write the two with + between them",
+    "minreal": "leave it out",
+    **dict.fromkeys(("u", "y", "r"), "only the transfer function between input and output is read: leave u and y out"),
+    "x10": "write 1.5e-3 or 1.5*10^-3 for a power of ten",
+    **dict.fromkeys(("d", "D"), "write 1.5e-3 for a power of ten"),
+    **dict.fromkeys(
+        ("step", "bode", "nyquist", "margin", "plot", "pidtune", "print"), "leave it out, only the plant is read"
+    ),
+    **dict.fromkeys(("min", "sec", "h", "hr", "ms", "rad"), "leave units out, and write all times in the same one"),
+    **dict.fromkeys(
+        ("fopdt", "sopdt", "gain", "lag", "delay", "theta", "tau", "dead", "time", "first", "second", "with"),
+        "write parameters with =, as in k=2, tau=10, theta=3",
+    ),
 }
+SIGN_HINTS = {
+    "%": "write 0.5, or 50, for 50 %",
+    "°": "leave the unit out",
+    ",": "a decimal comma stands between digits; a dead time behind a comma is written theta = 3",
+    "=": "enter one transfer function, or give every name before = a value",
+    **dict.fromkeys("\"'", "leave the quotes out"),
+    "@": "leave @(s) out",
+    "±": "enter one value",
+    ":": "write / for a division",
+    **dict.fromkeys("→≈", "write ="),
+    "½": "write 0.5 or 1/2",
+    "¼": "write 0.25 or 1/4",
+    "¾": "write 0.75 or 3/4",
+}
+IN_S = "write the transfer function in s, with numbers for everything else"
+A_NAME = f"{IN_S}, or give it a value behind: K/(T s+1), K=2, T=5"
 
 
 def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str]) -> Iterator[Token]:
@@ -71,7 +105,7 @@ def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str])
             continue
         found = TOKEN.match(plain, at, stop)
         if not found:
-            hint = ": write 0.5, or 50, for 50 %" if text[at] == "%" else ""
+            hint = f": {SIGN_HINTS[text[at]]}" if text[at] in SIGN_HINTS else ""
             raise ParseError(f"'{text[at]}' is not part of a transfer function{hint} (position {at + 1})", text, at)
         kind, written = found.lastgroup, found[0]
         if kind == "list" and not _is_list(written):
@@ -166,7 +200,8 @@ def _lost_exponent(text: str, plain: str, at: int, end: int) -> ParseError:
 
 def _unknown(text: str, known: str, written: str, at: int) -> ParseError:
     shown = written if len(written) <= 30 else written[:27] + "..."
-    hint = HINTS.get(known.rpartition(".")[2], "write the transfer function in s, with numbers for everything else")
+    key = known.rpartition(".")[2]
+    hint = HINTS.get(key, HINTS.get(key.lower(), A_NAME if len(bare(written)) <= 2 else IN_S))
     return ParseError(f"'{shown}' is not known: {hint} (position {at + 1})", text, at)
 
 

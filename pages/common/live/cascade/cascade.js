@@ -164,7 +164,8 @@ export class Cascade extends Instrument {
     const speeds = this.title();
     if (why) return `${speeds}: ${why}`;
     return (
-      `${speeds}: Ms of the outer loop ${text(m.Ms_outer)}, of the inner one ${text(m.Ms_inner)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
+      `${speeds}: Ms of the outer loop ${text(m.Ms_outer)}, of the inner one ${text(m.Ms_inner)}, ` +
+      `gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
       `IAE set point ${text(m.IAE_setpoint)}, d1 ${text(m.IAE_d1)}, d2 ${text(m.IAE_d2)}`
     );
   }

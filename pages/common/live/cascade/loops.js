@@ -30,7 +30,7 @@ export function loopsOf({ omega, blocks }, parameters) {
   return { inner, outer };
 }
 
-/** Ms, GM, PM_deg, delay_margin of a stable loop from L on its grid, good to a tenth of a per cent; margins.py has the definitions. */
+/** Ms, GM, PM_deg, delay_margin of a stable loop from L on its grid, to 0.1 %; margins.py defines them. */
 export function marginsOf(omega, { x: re, y: im }) {
   const { S } = sensitivities(re, im);
   const found = { Ms: peakOf(S), GM: Infinity, PM_deg: Infinity, delay_margin: Infinity };

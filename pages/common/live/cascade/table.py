@@ -27,7 +27,7 @@ from simc_core.controllers.forms import Controller, ParallelPid
 from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.plants.plant import Plant
-from simc_core.sensitivity.margins import Margins
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation.simulate_nested import horizon
 
 LOOPS = ("inner", "outer")

@@ -39,9 +39,9 @@ export function measures({ t, y, u }) {
   const TV = u.map((curve) => curve.reduce((sum, value, k) => sum + (k ? Math.abs(value - curve[k - 1]) : 0), 0));
   return {
     IAE_setpoint: IAE[0],
-    IAE_load: IAE[1],
+    IAE_disturbance: IAE[1],
     TV_setpoint: TV[0] + Math.abs(u[0][0]),
-    TV_load: TV[1],
+    TV_disturbance: TV[1],
     overshoot: Math.max(0, Math.max(...y[0]) - 1),
   };
 }

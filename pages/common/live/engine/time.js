@@ -110,7 +110,7 @@ class March {
   }
 }
 
-/** A dead time shorter than T/STEPS: after its first ones, (x, W) is the whole state, and steps may be taken together. */
+/** Dead time shorter than T/STEPS: after its first steps (x, W) is the whole state, and steps may be taken together. */
 function brief(loop, T) {
   const { n, theta } = loop;
   const size = n + BRIEF_ORDER;

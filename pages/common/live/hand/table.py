@@ -105,8 +105,7 @@ def _gain_of(plant: Plant) -> str:
 
 def _usual(subject: Subject, name: str) -> float:
     """A size for a knob that stands at nothing."""
-    slowest = max([abs(tau) for tau in subject.plant.lags] + [tau for tau, _ in subject.plant.lag_pairs], default=0.0)
-    time = subject.plant.theta or slowest or 1.0
+    time = subject.plant.theta or subject.plant.slowest or 1.0
     if name in ("tau_D", "theta"):
         return 0.5 * time
     form = subject.controller.to_parallel()

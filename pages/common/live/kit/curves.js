@@ -75,9 +75,9 @@ export function nyquistPanel({ title, loops, legend, behind = [] }, { omega, cir
         const away = Math.hypot(re[i] - x, im[i] - y);
         if (!best || away < best.away) best = { away, i, name: loops[n].name, re: re[i], im: im[i] };
       }
-    return best
-      ? `ω = ${measured(text(omega[best.i]), "frequency")}   ${best.name} = ${text(best.re, 3)} ${best.im < 0 ? "−" : "+"} ${text(Math.abs(best.im), 3)} j`
-      : "";
+    if (!best) return "";
+    const value = `${text(best.re, 3)} ${best.im < 0 ? "−" : "+"} ${text(Math.abs(best.im), 3)} j`;
+    return `ω = ${measured(text(omega[best.i]), "frequency")}   ${best.name} = ${value}`;
   };
   return new Panel(
     {

@@ -1,6 +1,7 @@
 // What every instrument does: sliders, figures and panels that follow the hand, lecture, what-if, pictures.
 // Python sends tables and, after each release, exact numbers; a subclass knows what they mean:
-//   furnished, take(message), panelSets(scale), reading(), figures(now), title(), words(now), release(slider), preset(n)
+//   furnished, take(message), panelSets(scale), reading(), figures(now), title(), words(now), release(slider),
+//   preset(n)
 
 import { LABELS } from "./curves.js";
 import { button } from "./format.js";

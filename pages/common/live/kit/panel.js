@@ -1,4 +1,4 @@
-// One panel: uPlot draws axes, grid, curves and cursor; every curve brings its own x, so that L(jw) is one like the rest.
+// One panel: uPlot draws axes, grid, curves and cursor; every curve brings its own x, L(jw) as the rest.
 
 import { button, isDecade, STEPS, text } from "./format.js";
 
@@ -18,12 +18,13 @@ export class Panel {
     this.zoom = null;
     this.box = document.createElement("figure");
     this.box.dataset.panel = spec.key;
-    this.box.innerHTML = `<figcaption><b></b><span class="legend"></span><output></output></figcaption><div class="plot" role="img"></div>`;
+    this.box.innerHTML = `<figcaption><b></b><span class="legend"></span><output></output></figcaption>
+      <div class="plot" role="img"></div>`;
     this.box.querySelector("b").textContent = spec.title;
     this.box.querySelector(".legend").replaceChildren(...(spec.legend ?? []).map(swatch));
     this.readout = this.box.querySelector("output");
     this.plot = this.box.querySelector(".plot");
-    this.unzoom = button("⟲ whole", "The whole curves again (double click)", () => this.reset());
+    this.unzoom = button("⟲ Reset zoom", "Or a double click on the curves", () => this.reset());
     this.unzoom.className = "unzoom";
     this.unzoom.hidden = true;
     this.single = button("⤢", "One panel or all");
@@ -78,7 +79,7 @@ export class Panel {
     return this.spec.square ? square(u, x, y) : { x, y };
   }
 
-  /** curves in the order of the styles, marks [{x, y, color, label, cross, align, below}], note: a warning across the panel. */
+  /** curves in the order of the styles, marks [{x, y, color, label, cross, align, below}], note: a warning. */
   show(curves, marks = [], note = "") {
     this.curves = curves;
     this.marks = marks;

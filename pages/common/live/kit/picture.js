@@ -1,6 +1,6 @@
 // The panels in sight as a file: PNG from their canvases, SVG from their curves.
 
-import { escaped, place, svgPanel, svgText } from "./svg.js";
+import { element, escaped, place, svgPanel, svgText } from "./svg.js";
 
 /** Panels shown, with their places on the sheet in pixels of the page. */
 function sheetOf(live) {
@@ -48,9 +48,23 @@ export function saveSvg(live) {
   const { width, height, places } = sheetOf(live);
   const { page, text: ink, font } = live.theme;
   const parts = places.map(({ panel, head, left, top }, i) => svgPanel(panel, left, top, head, `panel${i}`));
-  const svg =
-    `<svg xmlns="http://www.w3.org/2000/svg" width="${place(width)}" height="${place(height)}" viewBox="0 0 ${place(width)} ${place(height)}" font-family="${escaped(font)}" fill="${ink}">` +
-    `<title>${escaped(live.title())}</title><rect width="100%" height="100%" fill="${page}"/>${svgText(4, 15, live.title(), { weight: 600, size: 13 })}\n${parts.join("\n")}</svg>`;
+  const svg = element(
+    "svg",
+    {
+      xmlns: "http://www.w3.org/2000/svg",
+      width,
+      height,
+      viewBox: `0 0 ${place(width)} ${place(height)}`,
+      "font-family": font,
+      fill: ink,
+    },
+    [
+      element("title", {}, escaped(live.title())),
+      element("rect", { width: "100%", height: "100%", fill: page }),
+      svgText(4, 15, live.title(), { weight: 600, size: 13 }),
+      ...parts,
+    ].join("\n"),
+  );
   const address = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   download(live, address, "svg");
   setTimeout(() => URL.revokeObjectURL(address), 1000);

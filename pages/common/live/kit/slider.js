@@ -14,7 +14,11 @@ export class Slider {
     this.row = document.createElement("div");
     this.row.className = "top";
     this.row.innerHTML = `<div class="now"><span class="symbol"></span> = <output class="value">–</output></div>
-      <div class="track"><div class="rail"></div><div class="handle" role="slider" tabindex="0" aria-orientation="horizontal"></div><div class="scale" aria-hidden="true"></div></div>
+      <div class="track">
+        <div class="rail"></div>
+        <div class="handle" role="slider" tabindex="0" aria-orientation="horizontal"></div>
+        <div class="scale" aria-hidden="true"></div>
+      </div>
       <div class="settings"></div>`;
     const find = (selector) => this.row.querySelector(selector);
     [this.value, this.track, this.rail, this.scale, this.handle, this.settings] = [

@@ -16,8 +16,9 @@ export function strip(element, { cells, bands, solved }, metrics, exact, why) {
       const both = name === "GM" && metrics.GM_lower > 0;
       const value = Number.isNaN(metrics[name]) ? why || "not known" : factor * metrics[name];
       const title = exact ? value : "interpolated while you drag; exact when you let go";
+      const look = peak ? `peak ${why ? "alarm" : tone}` : "";
       return (
-        `<div data-figure="${name}" class="${peak ? `peak ${why ? "alarm" : tone}` : ""}" title="${title}\n${meaning}">` +
+        `<div data-figure="${name}" class="${look}" title="${title}\n${meaning}">` +
         `<small>${both ? `${label}, low · high` : label}</small>` +
         `<b>${both ? `${shown("GM_lower", 1)} · ` : ""}${shown(name, factor)}</b> ` +
         `<i>${escaped(LABELS[unit] || "")}</i>${more}</div>`

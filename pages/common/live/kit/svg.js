@@ -6,6 +6,14 @@ export const escaped = (words) =>
   String(words).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
 export const place = (v) => (Math.round(v * 100) / 100).toString();
 
+/** `<name key="value" .../>`, or with content in it; what is undefined is left out, numbers are written to 0.01 px. */
+export function element(name, attributes, content = "") {
+  const written = Object.entries(attributes)
+    .filter(([, value]) => value !== undefined)
+    .map(([key, value]) => ` ${key}="${typeof value === "number" ? place(value) : escaped(value)}"`);
+  return `<${name}${written.join("")}${content ? `>${content}</${name}>` : "/>"}`;
+}
+
 /** A pen for trace() that writes path data. */
 class SvgPen {
   parts = [];
@@ -17,11 +25,10 @@ class SvgPen {
   }
 }
 
-export function svgText(x, y, words, { anchor = "start", weight = 400, size = 11, turn = 0, color = "" } = {}) {
-  return (
-    `<text x="${place(x)}" y="${place(y)}" text-anchor="${anchor}" font-size="${size}" font-weight="${weight}"${color && ` fill="${color}"`}` +
-    `${turn ? ` transform="rotate(${turn} ${place(x)} ${place(y)})"` : ""}>${escaped(words)}</text>`
-  );
+export function svgText(x, y, words, { anchor = "start", weight = 400, size = 11, turn = 0, color: fill } = {}) {
+  const transform = turn ? `rotate(${turn} ${place(x)} ${place(y)})` : undefined;
+  const type = { "text-anchor": anchor, "font-size": size, "font-weight": weight };
+  return element("text", { x, y, ...type, fill, transform }, escaped(words));
 }
 
 /** One panel with its corner of the plot at (left, top); id: of its clip path. */
@@ -31,10 +38,7 @@ export function svgPanel(panel, left, top, head, id) {
     height = u.over.clientHeight;
   const [x0, y0] = [left + u.over.offsetLeft, top + u.over.offsetTop];
   const size = 11 * scale;
-  const out = [
-    `<clipPath id="${id}"><rect width="${width}" height="${height}"/></clipPath>`,
-    svgHead(panel, left, head),
-  ];
+  const out = [element("clipPath", { id }, element("rect", { width, height })), svgHead(panel, left, head)];
   const grid = [],
     words = [];
   for (const [i, side] of ["x", "y"].entries()) {
@@ -56,20 +60,25 @@ export function svgPanel(panel, left, top, head, id) {
     words.push(svgText(left + size, y0 + height / 2, spec.y.label, { anchor: "middle", size, turn: -90 }));
   const shades = panel
     .shades(u, false)
-    .map(
-      ([x, y, w, h, color]) =>
-        `<rect x="${place(x)}" y="${place(y)}" width="${place(w)}" height="${place(h)}" fill="${color}"/>`,
-    );
+    .map(([x, y, width, height, fill]) => element("rect", { x, y, width, height, fill }));
   const curves = panel.curves.map((curve, i) => {
     const { color, width: line = 2, dash } = spec.styles[i];
-    return `<path class="curve" d="${trace(u, curve, new SvgPen(), false).parts.join("")}" stroke="${theme.ink(color)}" stroke-width="${line * scale}"${dash ? ` stroke-dasharray="${dash.map((d) => d * scale)}"` : ""}/>`;
+    const pen = trace(u, curve, new SvgPen(), false);
+    return element("path", {
+      class: "curve",
+      d: pen.parts.join(""),
+      stroke: theme.ink(color),
+      "stroke-width": line * scale,
+      "stroke-dasharray": dash?.map((d) => d * scale).join(),
+    });
   });
-  out.push(
-    `<g transform="translate(${place(x0)} ${place(y0)})"><g clip-path="url(#${id})">${shades.join("")}<path d="${grid.join("")}" stroke="${theme.grid}"/>`,
-    `<g fill="none" stroke-linejoin="round">${curves.join("")}</g></g>${svgMarks(panel, width, height, size)}</g>`,
-    ...words,
-  );
-  return `<g role="img" aria-label="${escaped(panel.plot.getAttribute("aria-label") ?? spec.title)}">${out.join("\n")}</g>`;
+  const lines = element("path", { d: grid.join(""), stroke: theme.grid });
+  const drawn = element("g", { fill: "none", "stroke-linejoin": "round" }, curves.join(""));
+  const clipped = element("g", { "clip-path": `url(#${id})` }, shades.join("") + lines + drawn);
+  const marks = svgMarks(panel, width, height, size);
+  out.push(element("g", { transform: `translate(${place(x0)} ${place(y0)})` }, clipped + marks), ...words);
+  const label = panel.plot.getAttribute("aria-label") ?? spec.title;
+  return element("g", { role: "img", "aria-label": label }, out.join("\n"));
 }
 
 /** Title and legend above a panel. */
@@ -78,7 +87,12 @@ function svgHead({ spec, scale, theme }, left, head) {
   let x = left + (spec.title.length * 6.6 + 14) * scale;
   for (const { text: words, color, dash } of spec.legend ?? []) {
     out.push(
-      `<path d="M${place(x)} ${place(head - 4 * scale)}h${18 * scale}" stroke="${theme.ink(color)}" stroke-width="${2 * scale}"${dash ? ` stroke-dasharray="${5 * scale} ${3 * scale}"` : ""}/>`,
+      element("path", {
+        d: `M${place(x)} ${place(head - 4 * scale)}h${18 * scale}`,
+        stroke: theme.ink(color),
+        "stroke-width": 2 * scale,
+        "stroke-dasharray": dash && `${5 * scale} ${3 * scale}`,
+      }),
     );
     out.push(svgText(x + 23 * scale, head, words, { size: 11 * scale }));
     x += (words.length * 6 + 36) * scale;
@@ -96,10 +110,13 @@ function svgMarks(panel, width, height, size) {
     if (!(a >= 0 && a <= width && b >= 0 && b <= height)) continue;
     if (cross)
       out.push(
-        `<path d="M${place(a - r)} ${place(b)}h${2 * r}M${place(a)} ${place(b - r)}v${2 * r}" stroke="${theme.ink(color)}" stroke-width="${2 * scale}"/>`,
+        element("path", {
+          d: `M${place(a - r)} ${place(b)}h${2 * r}M${place(a)} ${place(b - r)}v${2 * r}`,
+          stroke: theme.ink(color),
+          "stroke-width": 2 * scale,
+        }),
       );
-    else if (color)
-      out.push(`<circle cx="${place(a)}" cy="${place(b)}" r="${4.5 * scale}" fill="${theme.ink(color)}"/>`);
+    else if (color) out.push(element("circle", { cx: a, cy: b, r: 4.5 * scale, fill: theme.ink(color) }));
     if (label)
       out.push(
         svgText(

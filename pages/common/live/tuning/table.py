@@ -25,7 +25,7 @@ from simc_core.plants.plant import Plant
 from simc_core.rules.simc import default_tau_c, simc, tau_c_presets
 from simc_core.simulation import simulate
 from simc_core.simulation.horizon import times
-from simc_core.studies.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
+from simc_core.studies.sweep import MARGINS, METRICS, Sweep, sweep, time_curves
 from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
 
 SHORTEST, LONGEST = 0.1, 100.0  # of tau_c over theta, on the slider
@@ -41,9 +41,9 @@ FIGURES = (
     "PM_deg",
     "delay_margin",
     "IAE_setpoint",
-    "IAE_load",
+    "IAE_disturbance",
     "TV_setpoint",
-    "TV_load",
+    "TV_disturbance",
     "overshoot",
     "noise_gain",
 )
@@ -53,14 +53,13 @@ SHOWN = (
     "PM_deg",
     "delay_margin",
     "IAE_setpoint",
-    "IAE_load",
+    "IAE_disturbance",
     "Mt",
     "TV_setpoint",
-    "TV_load",
+    "TV_disturbance",
     "overshoot",
     "noise_gain",
 )
-SWEPT = (*MARGINS[4:], *MARGINS[:4], *METRICS)  # where a Sweep has the first of them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -109,7 +108,7 @@ class Subject:
 
     def controller(self, tau_c: float) -> Controller:
         """SIMC at tau_c, with set-point weight and filter."""
-        return dressed(simc(self.model, tau_c), self.tuning.b, self.tuning.filter)
+        return simc(self.model, tau_c).with_filter(self.tuning.filter).with_weight(self.tuning.b)
 
     def loop(self, tau_c: float) -> Loop:
         """The loop round the full plant."""
@@ -220,7 +219,7 @@ def curves(found: Sweep, grid: Grid) -> dict[str, np.ndarray]:
 
 def metrics(subject: Subject, found: Sweep) -> np.ndarray:
     """FIGURES of all rows, (rows, figures)."""
-    values = {name: getattr(found, of_sweep) for name, of_sweep in zip(FIGURES, SWEPT, strict=False)}
+    values = {name: getattr(found, name) for name in (*MARGINS, *METRICS)}
     G = subject.plant.response(1j * found.omega)
     noise = [noise_gain(L, G, each) for L, each in zip(found.L, found.controllers, strict=True)]
     values["noise_gain"] = np.where(found.stable, noise, np.nan)
@@ -255,16 +254,15 @@ def judged(each: Study, omega: np.ndarray) -> dict[str, float]:
     if not each.stable:
         return dict.fromkeys(FIGURES, math.nan)
     metrics, s = each.performance, 1j * omega
-    values = (
-        *(getattr(each.margins, name) for name in SWEPT[:6]),
-        metrics.setpoint.IAE,
-        metrics.disturbance.IAE,
-        metrics.setpoint.TV,
-        metrics.disturbance.TV,
-        metrics.setpoint.overshoot,
-        noise_gain(each.loop.L(s), each.loop.plant.response(s), each.controller),
-    )
-    return dict(zip(FIGURES, values, strict=True))
+    values = {name: getattr(each.margins, name) for name in MARGINS} | {
+        "IAE_setpoint": metrics.setpoint.IAE,
+        "IAE_disturbance": metrics.disturbance.IAE,
+        "TV_setpoint": metrics.setpoint.TV,
+        "TV_disturbance": metrics.disturbance.TV,
+        "overshoot": metrics.setpoint.overshoot,
+        "noise_gain": noise_gain(each.loop.L(s), each.loop.plant.response(s), each.controller),
+    }
+    return {name: values[name] for name in FIGURES}
 
 
 def noise_gain(L: np.ndarray, G: np.ndarray, controller: Controller) -> float:

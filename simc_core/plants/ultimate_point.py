@@ -1,0 +1,25 @@
+"""The ultimate point: what a loop with proportional control alone does at its limit of stability."""
+
+from dataclasses import dataclass
+
+from simc_core import checks
+
+
+@dataclass(frozen=True, slots=True)
+class Ultimate:
+    """Ultimate gain and period.
+
+    Parameters
+    ----------
+    Ku : float
+        Gain of a P controller at the limit, in input units per output unit; its sign is that of the plant's gain.
+    Pu : float
+        Period of the oscillation there, 2 pi/omega_180, in the user's time unit, > 0.
+    """
+
+    Ku: float
+    Pu: float
+
+    def __post_init__(self):
+        object.__setattr__(self, "Ku", checks.gain("Ku", self.Ku))
+        object.__setattr__(self, "Pu", checks.positive_time("Pu", self.Pu))
