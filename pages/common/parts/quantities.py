@@ -45,9 +45,7 @@ QUANTITIES = {
     "TV_setpoint": Quantity("TV set point", f"{_TV} the set point", unit="OP"),
     "TV_disturbance": Quantity("TV load", f"{_TV} the load", unit="OP"),
     "overshoot": Quantity("Overshoot [%]", "of y beyond a unit step of the set point", 100.0),
-    "peak_disturbance": Quantity(
-        "Peak of y, unit load", "how far y goes at most after a unit step of the load", unit="PV"
-    ),
+    "peak_disturbance": Quantity("Peak of y, unit load", "how far y goes after a unit step of the load", unit="PV"),
     "settling_setpoint": Quantity("Settling set point", f"{_SETTLING} the set point", unit="time"),
     "settling_disturbance": Quantity("Settling load", f"{_SETTLING} the load", unit="time"),
     "noise_gain": Quantity("Noise gain", "largest |K S|: from measurement noise to the input u", unit="OP/PV"),
