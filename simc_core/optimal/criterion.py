@@ -68,12 +68,11 @@ def J(references: References, setpoint, load):
 def absolute_errors(plant: Plant, forms: Sequence[ParallelPid]) -> tuple[np.ndarray, np.ndarray]:
     """IAE of set-point and load steps of each controller, (n,) each, all with one tau_F."""
     parts, at = [], 0
-    while at < len(forms):
-        course = march(plant, forms[at:], None, MOST_TO_REST)
-        rest = course.at_rest
-        with np.errstate(all="ignore"):
+    with np.errstate(all="ignore"):  # a search may try loops that are not stable
+        while at < len(forms):
+            course = march(plant, forms[at:], None, MOST_TO_REST)
             found = measures(both_steps(course), with_times=False).IAE.reshape(2, -1)
-        parts.append(np.where(rest & np.isfinite(found), found, math.inf))
-        at += len(rest)
+            parts.append(np.where(course.at_rest & np.isfinite(found), found, math.inf))
+            at += len(course.at_rest)
     setpoint, load = np.concatenate(parts, axis=1)
     return setpoint, load
