@@ -8,8 +8,9 @@ from pages.common.session.design import Design
 from pages.common.shell import header
 from pages.common.studies.single import Study, attempt, present_study, study
 from pages.common.tuning import guards
-from pages.common.tuning.actuator_view import actuator_view, mark
+from pages.common.tuning.actuator_view import VIEW, actuator_view, mark, reach
 from pages.common.tuning.drag import drag
+from pages.common.tuning.excitation import excitation
 from pages.common.tuning.model_error_view import model_error_view
 from pages.common.tuning.panels import open_loop, panels
 from pages.common.tuning.pinned import design_table, pin_button, pinned_studies
@@ -35,7 +36,11 @@ def decide(design: Design, made: Study | None, present: Study | None) -> Study |
         settings(present)
         pin_button(present)
         guards.show(present)
-    return in_the_plant_now(design.plant, present)
+    if state.widget("views") != VIEW:
+        reach(design)
+    baseline = in_the_plant_now(design.plant, present)
+    excitation(design)
+    return baseline
 
 
 def look(design: Design, present: Study, baseline: Study | None) -> None:
@@ -51,16 +56,16 @@ def look(design: Design, present: Study, baseline: Study | None) -> None:
     if figures.open:
         with figures:
             readout(present)
-            panels(studies)
+            panels(studies, design.excitation)
     if bode.open:
         with bode:
             open_loop(studies)
     if error.open:
         with error:
-            model_error_view(present)
+            model_error_view(present, design.excitation)
     if built.open:
         with built:
-            actuator_view(present, design.actuator)
+            actuator_view(present, design)
     if table.open:
         with table:
             design_table(studies)
@@ -72,12 +77,12 @@ made, refusal = attempt(lambda: study(design.plant, design.tuning))
 present = made
 if design.source == "own":
     present, refusal = attempt(lambda: present_study(design))
-mark(design.actuator, "narrow")
+mark(design, "narrow")
 with st.container(key="tuning"):
     controls, view = st.columns([4, 11], gap="medium")
 baseline = None
 with controls:
-    mark(design.actuator, "wide")
+    mark(design, "wide")
     with explain_refusal():
         baseline = decide(design, made, present)
 with view:

@@ -14,6 +14,7 @@ from simc_core.errors import (
     ParseError,
     RuleEnds,
     SimcError,
+    WrongType,
 )
 from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
@@ -26,6 +27,8 @@ from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import Performance, performance
 from simc_core.metrics.step_metrics import StepMetrics
 from simc_core.numbers import read_number, read_numbers
+from simc_core.optimal.robust_gains import gain_intervals, robust_region
+from simc_core.optimal.stability_limit import stability_limit
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
     FirstOrderDelay,
@@ -39,13 +42,13 @@ from simc_core.plants.plant import Plant
 from simc_core.plants.ultimate_point import Ultimate
 from simc_core.read_back import read_back
 from simc_core.reduction.half_rule import half_rule
-from simc_core.reduction.records import Candidate, Reduction, Share, Step
+from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
-from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
+from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.studies.sweep import Sweep, sweep
 from simc_core.studies.tune import tune

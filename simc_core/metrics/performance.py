@@ -1,8 +1,9 @@
 """Step metrics over an infinite horizon, from the piecewise polynomials of the engine (metrics.py).
 
-A response is followed until y and u stay within REST = 1e-10 of their largest value from where they end (pace.py).
-Truncation error: what a decaying mode still adds behind that, REST times its time constant. A loop that needs more
-than march.MOST_TO_REST elements to come to rest is too close to its stability limit for that, and is told so.
+A response is followed until y and u stay within REST = 1e-10 of their largest value from where they end
+(one_delay/step_control.py). Truncation error: what a decaying mode still adds behind that, REST times its time
+constant. A loop that needs more than limits.MOST_TO_REST elements to come to rest is too close to its stability limit
+for that, and is told so.
 """
 
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
 from simc_core.metrics.nested_performance import NestedPerformance, nested_performance
 from simc_core.metrics.step_metrics import StepMetrics, Steps, metrics_of
-from simc_core.simulation.one_delay.unit_responses import Course
+from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.simulate import settled
 
 OFFSET = 1e-7
@@ -84,7 +85,7 @@ def _of_single(loop: Loop) -> Performance:
     return Performance(*metrics_of(both_steps(course)))
 
 
-def both_steps(course: Course) -> Steps:
+def both_steps(course: UnitResponses) -> Steps:
     """Set-point steps of all tunings, then their load steps."""
     n, m = len(course.first) - 1, len(course.owner)
     return Steps(

@@ -73,8 +73,8 @@ def _plant(text: str) -> Plant:
     value = _Statements(text).value()
     if value.theta < 0:
         raise ParseError(
-            f"dead time must be >= 0, got {float(value.theta):g}: e^{{+{-float(value.theta):g} s}} is a prediction. "
-            "Write e^{-3s} for a dead time of 3",
+            f"dead time must be >= 0, got {float(value.theta):g}: e^{{+{-float(value.theta):g}s}} would look into "
+            f"the future; a dead time of {-float(value.theta):g} is e^{{-{-float(value.theta):g}s}}",
             text,
             value.at,
         )

@@ -133,7 +133,7 @@ def _own_grid(response: Response) -> np.ndarray:
     if response.theta:
         corners += [1 / response.theta, 4 * math.pi / response.theta]
     first, last = 1e-2 * min(corners, default=1.0), 1e2 * max(corners, default=1.0)
-    clusters = [_cluster(root) for root in response.roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)]
+    clusters = [cluster(root) for root in response.roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)]
     if not response.theta:
         omega = geometric(first, last, GRID_PER_DECADE)
     else:  # equal steps from where those of the geometric grid are as long
@@ -143,7 +143,7 @@ def _own_grid(response: Response) -> np.ndarray:
     return np.sort(np.concatenate([omega, *clusters])) if clusters else omega
 
 
-def _cluster(root: complex) -> np.ndarray:
+def cluster(root: complex) -> np.ndarray:
     """Nodes about a resonance, close together at its top."""
     offsets = max(abs(root.real), NARROWEST * abs(root)) * CLUSTER
     near = offsets[offsets < 0.5 * root.imag]

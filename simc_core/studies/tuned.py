@@ -15,7 +15,6 @@ from simc_core.rules.simc import A_THETA_LIMIT, simc
 from simc_core.rules.speed import tau_c_in_use
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
-from simc_core.studies.sweep import dressed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,7 +102,7 @@ def tuned(
 def _closed(plant: Plant, choices: dict[str, Any], reduction: Reduction) -> Tuned:
     model = reduction.model
     tau_c = tau_c_in_use(model, choices["tau_c"], choices["speed"])
-    loop = Loop(plant, dressed(simc(model, tau_c), choices["b"], choices["filter"]))
+    loop = Loop(plant, simc(model, tau_c).with_filter(choices["filter"]).with_weight(choices["b"]))
     return Tuned(plant, choices, reduction, tau_c, loop, margins(loop))
 
 

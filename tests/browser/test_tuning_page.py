@@ -51,8 +51,8 @@ def test_pinning_works_from_the_keyboard_and_is_drawn(key, server, open_page):
     page.get_by_role("button", name="Pin as A").press(key)
     idle(page)
     assert "pins=" in page.url
-    page.get_by_label("exactly").fill("20")
-    page.get_by_label("exactly").press("Enter")
+    page.get_by_label("exact").fill("20")
+    page.get_by_label("exact").press("Enter")
     idle(page)
     expect(panel(page, "y").locator(".legendtext", has_text="A")).to_be_visible()
 

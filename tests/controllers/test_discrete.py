@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from simc_core import InvalidParameter, Loop, ParallelPid, Plant, Scenario, SeriesPid, simulate
+from simc_core import Actuation, InvalidParameter, Loop, ParallelPid, Plant, Scenario, SeriesPid, simulate
 from simc_core.controllers.discrete import LAWS, State, law_for
 from tests.oracles.sampled_loop import driven
 
@@ -78,7 +78,7 @@ def test_simulation_does_what_the_law_says(law, limit, h):
         return state.u
 
     y, u = driven(1, 1, (10, 3), h, step, r)
-    scenario = Scenario(1, 0, t=h * np.arange(100), h=h, law=law, u_max=limit, u_min=-limit)
+    scenario = Scenario(1, 0, t=h * np.arange(100), actuation=Actuation(h=h, law=law, u_max=limit, u_min=-limit))
     found = simulate(Loop(plant, controller), scenario)
     assert found.y == pytest.approx(y, abs=1e-11)
     assert found.u == pytest.approx(u, abs=1e-11)
@@ -92,4 +92,4 @@ def test_a_filter_that_would_ring_is_refused():
 
 def test_an_unknown_law_is_refused():
     with pytest.raises(InvalidParameter, match="law must be one of backward, tustin, got 'forward'"):
-        Scenario(law="forward")
+        Actuation(law="forward")

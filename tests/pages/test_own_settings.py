@@ -25,7 +25,7 @@ def test_my_settings_are_what_is_judged():
     app = run_page("tuning", "Figures", plant=HEATER, own=NOW, controller="own")
     assert ">200<" in strip(app)
     assert ">1.289<" in strip(app)  # faults.md a1, by python-control too
-    assert "τc exactly" not in [field.label for field in app.text_input]
+    assert "τc, exact" not in [field.label for field in app.text_input]
 
 
 def test_simc_settings_are_taken_over_and_changed_by_hand():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pages.common.session.design import Design, Tuning, in_time_unit
+from pages.common.session.design import Actuator, Design, Tuning, in_time_unit, put
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import study
 from simc_core import IdealPid, InvalidParameter, Plant, SeriesPid, parse_plant
@@ -47,6 +47,15 @@ def test_facts_of_a_step_test_are_converted_with_their_plant():
     level = SlopeFacts(10, 0.3, 2, 60)
     hours = in_time_unit(Design(level.plant, facts=level, sheet=Sheet(time_unit="min")), "h")
     assert (hours.facts.duration, hours.plant.k) == (1.0, 0.03)
+
+
+def test_limits_of_the_output_stay_on_its_scale_when_the_operating_point_moves():
+    valve = Design(sheet=Sheet(OP_now=45), actuator=Actuator(u_min=-45, u_max=55))
+    moved = put(valve, "OP_now", 60).actuator
+    assert (moved.u_min, moved.u_max) == (-60, 40)
+    assert put(valve, "OP_now", None).actuator == valve.actuator
+    with pytest.raises(InvalidParameter, match="OP_now must be within the limits of the output, 0 to 100, got 110"):
+        put(valve, "OP_now", 110)
 
 
 def test_margins_do_not_know_the_unit_and_times_are_sixty_times_smaller():

@@ -122,7 +122,7 @@ def test_a_pinned_design_stays_what_it_was_and_is_drawn_and_listed():
     app.session_state["views"] = "Compare"
     app.run()
     (table,) = [frame.value for frame in app.dataframe if "present" in frame.value]
-    values = table.set_index("")
+    values = table.set_index("quantity")
     assert values.loc["τc", "A"] == "7"
     assert values.loc["τc", "present"] == "20"
     assert float(values.loc["Kp", "A"]) == pytest.approx(0.5714)

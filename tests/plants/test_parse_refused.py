@@ -77,10 +77,10 @@ TWO_READINGS = {
     "1/(s+1)2": "a sign is missing before this number",
     "(s+1)2/(s+2)3": "a sign is missing before this number",
     # how far a denominator goes
-    "1/2s": "how far the denominator goes",
-    "1/(5s+1)(3s+1)": "how far the denominator goes",
-    "2 e^{-3s} / 5s+1": "how far the denominator goes",
-    "1/s²(s+1)": "how far the denominator goes",
+    "1/2s": "the denominator is unclear: write",
+    "1/(5s+1)(3s+1)": "the denominator is unclear: write",
+    "2 e^{-3s} / 5s+1": "the denominator is unclear: write",
+    "1/s²(s+1)": "the denominator is unclear: write",
     # letters
     "K=2, T=10, tau=3": "tau can be read in two ways beside T",
     "1/(s+p)": "two variables, s and p",

@@ -11,7 +11,7 @@ from html import escape
 import streamlit as st
 
 from pages.common.studies.cascade import CascadeStudy
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller
 from simc_core.notation import latex_factors, number, plain
 from simc_core.plants.plant import Plant
 
@@ -94,10 +94,7 @@ def narrow(study: CascadeStudy, form: str) -> str:
 def settings_lines(controller: Controller, form: str) -> list[tuple[str, float]]:
     """Names and values of the settings in `form`; in the parallel form where there is none."""
     shown = controller.in_form(form if controller.has_form(form) else "parallel")
-    always, optional = (
-        shown.SETTINGS[:2],
-        (*shown.SETTINGS[2:], *(() if isinstance(shown, IController) else ("tau_F",))),
-    )
+    always, optional = shown.SETTINGS[:2], (*shown.SETTINGS[2:], *shown.OPTIONAL[:1])
     return [(name, getattr(shown, name)) for name in (*always, *(name for name in optional if getattr(shown, name)))]
 
 

@@ -17,7 +17,7 @@ from simc_core.controllers.forms import FORMS
 from simc_core.notation import number
 
 BLOCKS = (("Ga", "Ga primary", "primary block Ga"), ("Gb", "Gb secondary", "secondary block Gb"))
-METHOD_NAMES = {"simc": "SIMC", "synthesis": "Synthesis"}
+METHOD_NAMES = {"simc": "SIMC", "synthesis": "Direct synthesis"}
 SPEED_LETTERS = {"simc": "τc", "synthesis": "λ"}
 LOOPS = {"outer": "Outer loop", "inner": "Inner loop"}
 SPEEDS = [10 ** (i / 20) for i in range(-40, 21)]  # of a slider, in units of the loop's own times
@@ -43,7 +43,7 @@ def blocks() -> None:
         "From the literature [PSB]",
         list(titles),
         key="pair",
-        placeholder="The paper's ten pairs",
+        placeholder="Published pairs (Prelić et al.)",
         label_visibility="collapsed",
         help="The ten process pairs of Prelić, Šekara and Bošković, with the designs they print; PI or PID "
         "outside, Ms inside · outside.",
@@ -106,7 +106,7 @@ def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
         key = f"{loop}_by"
         state.set_widget(key, asked)
         st.segmented_control(
-            "set by",
+            "speed from",
             ("auto", "tau_c", "Ms"),
             format_func={"auto": "auto", "tau_c": SPEED_LETTERS[cascade.method], "Ms": "Ms"}.get,
             key=key,
@@ -163,7 +163,7 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
         )
     design_number(
         name,
-        f"{symbol} of the {loop} loop, exactly",
+        f"{symbol} of the {loop} loop, exact",
         key=f"{name}_exact",
         place=place,
         under=st.container(),

@@ -1,4 +1,4 @@
-"""The reduction told and judged: steps with their equations, the budget, other delays, the error in numbers."""
+"""The reduction told and judged: steps with their equations, the budget, other dead times, the error in numbers."""
 
 import math
 
@@ -63,17 +63,17 @@ def budget(reduction: Reduction) -> None:
 
 
 def candidates(reduction: Reduction) -> None:
-    """Other self-consistent delays, and why this one."""
+    """Other self-consistent dead times, and why this one."""
     if len(reduction.candidates) < 2:
         return
-    st.markdown("**More than one delay satisfies the rules**")
+    st.markdown("**More than one effective dead time satisfies the rules**")
     st.dataframe(
         [
             {
                 "θ": number(each.theta),
                 "Ms, tight loop around the plant": number(each.Ms) if math.isfinite(each.Ms) else "no stable loop",
                 "load error at Ms = 1.6": number(each.load_error, 3) if math.isfinite(each.load_error) else "none",
-                "": "chosen" if each.chosen else "",
+                "taken": "chosen" if each.chosen else "",
             }
             for each in reduction.candidates
         ],
@@ -128,4 +128,4 @@ def numbers(compared: ModelError) -> None:
             "**Made for fast control.** The model keeps the beginning of the response, not its steady state: the rules "
             "for zeros hold at the frequencies of the tight loop. The tuning page judges the loop around the full plant"
         )
-    place(words + (share or ": the loop round the model itself is not stable."))
+    place(words + (share or ": the loop around the model itself is not stable."))

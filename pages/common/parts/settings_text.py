@@ -2,7 +2,7 @@
 
 import math
 
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller
 
 STRUCTURE = {
     "series": r"K_c \frac{\tau_I s+1}{\tau_I s}(\tau_D s+1)",
@@ -18,7 +18,7 @@ def as_text(controller: Controller, form: str) -> str:
     """
     shown = controller.in_form(form)
     values = shown.settings
-    if not isinstance(shown, IController):
+    if shown.OPTIONAL:
         values |= {"tau_F": shown.tau_F} if shown.tau_F else {}
         values |= {"b": shown.b} if shown.b != 1 else {}
     return "\n".join(

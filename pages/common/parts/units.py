@@ -55,3 +55,8 @@ def with_unit(label: str, unit: str) -> str:
     if not unit:
         return label
     return f"{label} [{unit if PLAIN.fullmatch(unit) else exact(unit)}]"
+
+
+def with_plain_unit(label: str, unit: str) -> str:
+    """The same where it is not read as Markdown."""
+    return f"{label} [{unit}]" if unit else label

@@ -43,10 +43,13 @@ def poles(study: Study) -> None:
     """Dominant closed-loop poles with their damping."""
     with st.expander("Dominant closed-loop poles"):
         rows = [pole_row(pole) for pole in dominant_poles(study.loop)]
-        st.dataframe(rows, hide_index=True, width="content")
+        if rows:
+            st.dataframe(rows, hide_index=True, width="content")
+        else:
+            st.caption("None can be shown of which it is certain that no other is further to the right.")
         st.caption(
             "Roots of $1 + L(s) = 0$, the rightmost of infinitely many; damping $\\zeta = -\\mathrm{Re}\\,s/|s|$. "
-            "A pole that a zero of the controller hides from set-point steps is still excited by load disturbances."
+            "A pole that a zero of the controller cancels for set-point changes is still excited by load disturbances."
         )
 
 
@@ -58,5 +61,5 @@ def pole_row(pole: ClosedLoopPole) -> dict[str, str]:
         "damping ζ": number(pole.zeta),
         "frequency |s|": number(pole.omega_n),
         "time constant": number(-1 / s.real) if s.real < 0 else "does not decay",
-        "hidden from r": "yes" if pole.cancelled else "",
+        "cancelled for set-point changes": "yes" if pole.cancelled else "",
     }

@@ -23,7 +23,7 @@ LABELS = (
 
 
 def pinned_studies(plant: Plant, pins: tuple[Tuning | Controller, ...]) -> list[tuple[str, Study]]:
-    """The pinned designs, round the present plant; one that this plant does not allow is named and left out."""
+    """The pinned designs, around the present plant; one that this plant does not allow is named and left out."""
     found = []
     for letter, pin in zip(LETTERS, pins, strict=False):
         try:
@@ -55,8 +55,8 @@ def pin_button(present: Study) -> None:
 def design_table(studies: list[tuple[str, Study]]) -> None:
     """One column a design, present first; a loop that is not stable has no figures."""
     columns = {name: facts(each) for name, each in studies}
-    rows = [{"": label} | {name: each.get(label, "–") for name, each in columns.items()} for label in LABELS]
-    wide = {"": st.column_config.TextColumn(width="medium")}
+    rows = [{"quantity": label} | {name: each.get(label, "–") for name, each in columns.items()} for label in LABELS]
+    wide = {"quantity": st.column_config.TextColumn(width="medium")}
     st.dataframe(
         rows, hide_index=True, width="content", height="content", row_height=27, column_config=wide, key="designs"
     )
@@ -84,7 +84,9 @@ def facts(each: Study) -> dict[str, str]:
         *(metrics.setpoint.IAE, metrics.disturbance.IAE, metrics.setpoint.TV, metrics.disturbance.TV),
         *(100 * metrics.setpoint.overshoot, metrics.setpoint.settling_time, metrics.disturbance.settling_time),
     )
-    return dict(zip(LABELS, [*found, *map(number, judgement)], strict=True))
+    found += map(number, judgement)
+    told = dict(zip(LABELS, found, strict=True))
+    return told if judged.GM_lower else told | {"GM, lower limit": "none"}
 
 
 def _pin(pins: tuple[Tuning | Controller, ...], present: Study) -> None:

@@ -9,7 +9,7 @@ import streamlit as st
 from pages.common.parts.number_field import number_field
 from pages.common.session import state
 from pages.common.studies.single import Study, study_of_settings
-from simc_core.controllers.forms import FORMS, Controller, IController, IdealPid
+from simc_core.controllers.forms import FORMS, Controller, IdealPid
 from simc_core.errors import SimcError
 from simc_core.plants.plant import Plant
 from simc_core.studies.retune import what_changes
@@ -63,7 +63,7 @@ def my_settings(made: Study | None) -> None:
 
 def settings_fields(controller: Controller, key: str, take: Callable[[Controller], None]) -> None:
     """The settings of a controller as number fields, in its own form."""
-    names = [*controller.SETTINGS, *(() if isinstance(controller, IController) else ("tau_F", "b", "c"))]
+    names = [*controller.SETTINGS, *controller.OPTIONAL]
     for row in (names[:3], names[3:]):
         places = st.columns(3, gap="small") if row else ()
         for name, place in zip(row, places, strict=False):

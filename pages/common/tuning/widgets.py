@@ -43,7 +43,7 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
         with slide:
             _slider(model, tau_c)
     design_number(
-        "tau_c", "τc exactly", show=lambda value: value or tau_c, key="tau_c_exact", place=place, under=st.container()
+        "tau_c", "τc, exact", show=lambda value: value or tau_c, key="tau_c_exact", place=place, under=st.container()
     )
     _presets(study)
 

@@ -25,9 +25,9 @@ from simc_core.simulation.actuator.actuation import (
     Stepped,
     affordable,
     stepped,
-    tracking_time,
+    tracking_time_in_use,
 )
-from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.actuator.one_step import Linear, whole_steps
 
 # Columns of z behind x. MEASURED: y at the end of the step before, but for its u.   From STATE on: State of the last
 # sample, its v in ASKED.   GIVEN: u of the step before.   NOISE, SETPOINT: in the rows of the samples.
@@ -39,14 +39,14 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     """As saturation.actuated, for h > 0. Raises InvalidParameter beyond actuation.MOST_STEPS steps."""
     A, B, C, D = chain(loop.plant.factored)
     system, theta, h, n = Linear(A, B, C[None, :], np.array([D])), loop.plant.theta, actuation.h, len(B)
-    fine = max(1, math.ceil(h * STEPS / inputs.t_end))  # steps a sampling period
+    fine = whole_steps(h * STEPS / inputs.t_end)  # steps a sampling period
     dt = h / fine
     N = affordable(inputs.t_end / dt, f"a sampling period of {h:g}")
     m = min(math.ceil(theta / dt * (1 - SAME)), N)
     late = max(m * dt - theta, 0.0)  # w over step j is u of step j - m, for the last `late` that of j - m + 1
     reach = m, m - (late > 0)  # steps from u to w1 and to w2
     plant = Driven(system, system.late_hold(dt, late), dt, theta, inputs)
-    pull = min(h / tracking_time(loop, actuation), 1.0)  # T_t is at least h: the excess is gone at the next sample
+    pull = min(h / tracking_time_in_use(loop, actuation), 1.0)  # where T_t < h the excess is gone at the next sample
     with_sample, without, y = _matrices(plant, form, actuation, pull, reach)
     z, ahead = plant.rows(N + m, n + COLUMNS), [without.dot] * N
     samples = math.ceil(N / fine)

@@ -24,7 +24,7 @@ ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its r
 
 
 @dataclass(slots=True)
-class Pace:
+class StepControl:
     """Of one tuning. t: where it is.   level, before: of the next element and of the one before.
 
     good: elements since the last change of level.   mark, away_at_mark: a former time, and how far from rest it was.

@@ -96,8 +96,7 @@ def _knob(subject: Subject, name: str, value: float) -> dict:
 
 def _usual(subject: Subject, name: str) -> float:
     """A size for a knob that stands at nothing."""
-    slowest = max([abs(tau) for tau in subject.plant.lags] + [tau for tau, _ in subject.plant.lag_pairs], default=0.0)
-    time = subject.plant.theta or slowest or 1.0
+    time = subject.plant.theta or subject.plant.slowest or 1.0
     if name in ("tau_D", "theta"):
         return 0.5 * time
     form = subject.controller.to_parallel()
@@ -114,9 +113,8 @@ def setup(subject: Subject, grid: Grid, present: Study, behind: Sequence[tuple[s
         "knobs": knobs(subject),
         "plant": plant,
         "controller": _controller(subject.controller),
-        "steps": {"r": 1.0, "d": 1.0, "load": grid.load},
+        "steps": grid.steps,
         "t": grid.t.tolist(),
-        "load": grid.load,
         "omega": grid.omega.tolist(),
         **judgement(CELLS),
         "pins": [{"name": letter} for letter, _ in behind],
@@ -181,4 +179,6 @@ def allowed(subject: Subject, values: dict) -> dict[str, float]:
 
 def setup_name(subject: Subject, grid: Grid, behind: Sequence[tuple[str, Study]]) -> str:
     """Same name, same setup."""
-    return name_of(subject, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind])
+    return name_of(
+        subject, grid.excitation, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind]
+    )
