@@ -5,6 +5,7 @@ from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.certificate.verdict import NestedStability, Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import (
+    BoxError,
     FormError,
     InvalidParameter,
     NoOptimum,
@@ -16,6 +17,9 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.implementation.boxes.box import Box
+from simc_core.implementation.boxes.catalogue import BOXES
+from simc_core.implementation.boxes.convert import Typed, from_box, to_box
 from simc_core.implementation.sampled_margins import longest_sampling_period, sampled_margins
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
