@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
 from pages.common.session.sheet import Sheet, ratio
-from simc_core import Actuation, Plant, Scenario, checks
+from simc_core import BOXES, Actuation, Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
@@ -194,6 +194,7 @@ class Design:
     source: where the controller comes from, "simc" by tuning, or "own", the settings in `own`.
     own: my settings, None until there are any.   now: what is in the plant now, the baseline; None where not told.
     pins: tunings and settings set aside to compare with the present one.
+    box: what the settings are typed into, a key of BOXES, "" where not told.
     """
 
     plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
@@ -208,10 +209,12 @@ class Design:
     actuator: Actuator = field(default_factory=Actuator)
     facts: StepFacts | None = None
     excitation: Excitation = field(default_factory=Excitation)
+    box: str = ""
 
     def __post_init__(self):
         one_of("form", self.form, FORMS)
         one_of("source", self.source, SOURCES)
+        one_of("box", self.box, ("", *BOXES))
         if self.source == "own" and self.own is None:
             raise InvalidParameter("own must be given where the controller is my settings, got nothing")
         object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
@@ -220,7 +223,7 @@ class Design:
 
 # Where the field of each name lies, "" for the design itself. Links and widgets know fields by these names.
 PLACES: dict[str, tuple[str, str]] = {
-    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins")},
+    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box")},
     "controller": ("", "source"),
     **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed")},
     **{name: ("sheet", name) for name in ("tag", "note")},

@@ -4,6 +4,7 @@
     facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
     pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
+    box                                              what the settings are typed into
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
     u_min, u_max, T_t, noise, seed, sampling, law    the loop as built, only where it is not the default
@@ -29,7 +30,7 @@ TUNING_FIELDS = tuple(name for name, (record, _) in PLACES.items() if record == 
 SETTINGS = ("own", "now")
 FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "I": IController}
 TEXTS = (
-    *("rules", "form", "speed", "controller"),
+    *("rules", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
     *("method", "inner", "outer", "filter_outer", "law"),
 )

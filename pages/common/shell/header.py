@@ -18,6 +18,7 @@ GROUPS = {
     "Start": {"home": "Home"},
     "Model": {"plant": "Plant", "half_rule": "Half rule"},
     "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
+    "Use": {"take_home": "Take home"},
     "Learn": {"accuracy": "Accuracy"},
 }
 TITLES = {name: title for group in GROUPS.values() for name, title in group.items()}

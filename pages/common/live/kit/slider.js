@@ -92,7 +92,7 @@ export class Slider {
     this.handle.setAttribute("aria-valuetext", `${size}${this.symbol ? `, ${ratio} times theta` : ""}`);
   }
 
-  /** What the controller's settings are there; exact: all digits on hover; measures: what each is of; action: in a word. */
+  /** What the settings are there; exact: all digits on hover; measures: what each is of; action: in a word. */
   tell(settings, exact, measures, action) {
     const each = Object.entries(settings).map(
       ([name, value]) =>

@@ -1,0 +1,65 @@
+"""The settings of a design as they are typed into a box, in the units of the loop sheet. Pure: no streamlit."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+
+from pages.common.session.sheet import TIME_UNITS, Sheet
+from simc_core import BOXES, Typed, from_box, to_box
+from simc_core.controllers.forms import Controller
+from simc_core.implementation.boxes.box import PV_FILTER, STRUCTURE
+
+SPAN = 100.0  # where a range is not told, it is taken as 0 to 100 of its unit
+
+
+def typed_into(key: str, controller: Controller, sheet: Sheet, rounded: bool) -> Typed:
+    """What is typed, and the controller in effect, in the time unit of the design. Raises SimcError."""
+    seconds = seconds_of(sheet)
+    found = to_box(controller.rescaled(seconds), key, *spans(sheet), rounded=rounded)
+    return replace(found, effective=found.effective.rescaled(1 / seconds))
+
+
+def read_from(key: str, values: Mapping[str, float | str], action: str, sheet: Sheet) -> Controller:
+    """The controller that typed numbers make, in the time unit of the design. Raises SimcError."""
+    return from_box(key, values, action, *spans(sheet)).rescaled(1 / seconds_of(sheet))
+
+
+def seconds_of(sheet: Sheet) -> Fraction:
+    """Seconds in a time unit of the design; one that has no name is taken as a second."""
+    return TIME_UNITS.get(sheet.time_unit, Fraction(1))
+
+
+def spans(sheet: Sheet) -> tuple[float, float]:
+    """Ranges of PV and of OP."""
+    ends = ((sheet.PV_low, sheet.PV_high), (sheet.OP_low, sheet.OP_high))
+    return tuple(SPAN if None in (low, high) else high - low for low, high in ends)
+
+
+def assumed(sheet: Sheet) -> list[str]:
+    """What the loop sheet does not tell and is taken as usual."""
+    found = []
+    if not sheet.time_unit:
+        found.append("times are taken as seconds")
+    for signal in ("PV", "OP"):
+        if None in (getattr(sheet, f"{signal}_low"), getattr(sheet, f"{signal}_high")):
+            found.append(f"the range of {signal} is taken as 0 to 100")
+    return found
+
+
+def rows(key: str, found: Typed, sheet: Sheet) -> list[dict[str, str]]:
+    """Field, value, unit: as the box has them, its action and structure last."""
+    box = BOXES[key]
+    units = {each.name: each.unit.replace("PV", sheet.PV_unit or "unit of PV") for each in box.fields}
+    units |= {PV_FILTER: "s", STRUCTURE: ""}
+    shown = [{"field": name, "value": _value(value), "unit": units[name]} for name, value in found.values.items()]
+    word = box.actions[0 if found.action == "reverse" else 1]
+    return [*shown, {"field": "action", "value": word, "unit": "" if word == found.action else found.action}]
+
+
+def as_text(shown: list[dict[str, str]]) -> str:
+    """Lines `field = value unit`."""
+    return "\n".join(f"{row['field']} = {row['value']} {row['unit']}".rstrip() for row in shown)
+
+
+def _value(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:.10g}"

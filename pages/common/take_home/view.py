@@ -1,0 +1,170 @@
+"""Settings in the box: what is typed, what that makes, and what it does to the loop; and the way back."""
+
+import math
+from html import escape
+
+import streamlit as st
+
+from pages.common.parts.copyable import copyable
+from pages.common.parts.number_field import design_number, number_field
+from pages.common.parts.panel import Panel, field
+from pages.common.parts.symbols import sentence
+from pages.common.parts.units import unit_of, with_plain_unit
+from pages.common.session import state
+from pages.common.session.design import Design
+from pages.common.session.sheet import Sheet
+from pages.common.studies.single import Study, study_of_settings, time_responses
+from pages.common.take_home.typed import as_text, assumed, read_from, rows, typed_into
+from simc_core import BOXES, Typed, longest_sampling_period, sampled_margins
+from simc_core.errors import SimcError
+from simc_core.figures import input_figure, output_figure
+from simc_core.notation import number
+from simc_core.sensitivity.margins_of_response import Margins
+
+HEIGHT = 260  # px
+FIGURES = {"Ms": "", "Mt": "", "GM": "", "PM_deg": "°", "delay_margin": "time"}
+LABELS = {"Ms": "Ms", "Mt": "Mt", "GM": "gain margin", "PM_deg": "phase margin", "delay_margin": "delay margin"}
+LAWS = {"backward": "backward difference", "tustin": "Tustin, bilinear"}
+
+
+def choose(design: Design) -> None:
+    """Which box, rounded or not, and how often it samples."""
+    state.set_widget("box", design.box or None)
+    st.selectbox(
+        "What the settings are typed into",
+        list(BOXES),
+        format_func=lambda key: f"{BOXES[key].maker}: {BOXES[key].title}",
+        index=None,
+        placeholder="Choose a controller",
+        key="box",
+        on_change=lambda: state.overtaken("box") or state.change(box=state.widget("box") or ""),
+    )
+    st.toggle("Rounded to what can be typed", value=True, key="rounded", help="On the safe side: gain down, τI up.")
+    places = st.columns(2, gap="small")
+    design_number("sampling", "Sampling period", quantity="time", key="home_sampling", place=places[0])
+    if design.actuator.h:
+        state.set_widget("law", design.actuator.law)
+        places[1].selectbox(
+            "Law of the box",
+            list(LAWS),
+            format_func=LAWS.get,
+            key="law",
+            on_change=lambda: state.overtaken("law") or state.change(law=state.widget("law")),
+        )
+
+
+def numbers(design: Design, present: Study) -> Typed:
+    """What is typed, and where the law was read. Raises SimcError where the box does not take the design."""
+    box, rounded = BOXES[design.box], state.widget("rounded", True)
+    found = typed_into(design.box, present.controller, design.sheet, rounded)
+    shown = rows(design.box, found, design.sheet)
+    st.html(_numbers_html(shown))
+    copyable(as_text(shown), "typed")
+    taken = assumed(design.sheet)
+    if taken:
+        st.info(f"The loop sheet does not tell it: {', '.join(taken)}.")
+    for warning in (*found.warnings, *box.notes):
+        st.warning(sentence(warning))
+    if box.unread:
+        st.warning(f"Check your manual: {sentence('; '.join(box.unread))}")
+    whose = "its maker" if box.verified == "maker" else "a third party, not of its maker"
+    st.html(f'<small class="source">Law as read in: {escape(box.source)}, a text of {whose}.</small>')
+    return found
+
+
+def proof(design: Design, present: Study, found: Typed) -> None:
+    """Design, typed and sampled side by side: margins and responses."""
+    typed = study_of_settings(design.plant, found.effective)
+    columns = {"design": _column(present.margins), "as typed": _column(typed.margins)}
+    h = design.actuator.h
+    if h:
+        every = f"sampled every {number(h)} {design.sheet.time_unit}".rstrip()
+        columns[every] = _column(sampled_margins(typed.loop, h, design.actuator.law))
+    names = [with_plain_unit(LABELS[name], _unit(name, design.sheet)) for name in FIGURES]
+    table = [
+        {"quantity": name} | {column: values[i] for column, values in columns.items()} for i, name in enumerate(names)
+    ]
+    st.dataframe(table, hide_index=True, width="stretch", height="content")
+    if h and typed.stable:
+        _sampling(typed, design)
+    studies = [present, typed]
+    times = list(zip(("design", "typed"), time_responses(studies, design.excitation), strict=True))
+    field(
+        (
+            Panel("typed_y", "y", "Output y of the design and as typed", output_figure(times, HEIGHT, present.stable)),
+            Panel("typed_u", "u", "Input u of the design and as typed", input_figure(times, HEIGHT, present.stable)),
+        )
+    )
+
+
+def in_the_box_now(design: Design) -> None:
+    """The way back: numbers that stand in the box become my settings."""
+    box = BOXES[design.box]
+    with st.expander("What is in the box now", expanded=False):
+        st.caption("Type what the box shows; it becomes *my settings* on the tuning page.")
+        values: dict[str, float | None] = state.memory(f"box_{box.key}", dict)
+        places = st.columns(min(len(box.fields), 3), gap="small")
+        for i, each in enumerate(box.fields):
+            number_field(
+                each.name,
+                values.get(each.name),
+                lambda value: None,
+                lambda value, name=each.name: values.__setitem__(name, value),
+                f"box_{box.key}_{i}",
+                unit=each.unit.replace("PV", design.sheet.PV_unit or "PV"),
+                optional=True,
+                place=places[i % len(places)],
+            )
+        action = st.segmented_control(
+            "Action",
+            ("reverse", "direct"),
+            default="reverse",
+            required=True,
+            format_func=dict(zip(("reverse", "direct"), box.actions, strict=True)).get,
+            key=f"box_{box.key}_action",
+        )
+        given = {name: value for name, value in values.items() if value is not None}
+        st.button("Use as my settings", key="from_box", on_click=_take, args=(box.key, given, action, design.sheet))
+        why = state.memory("box_refused", str)
+        if why:
+            st.error(sentence(why))
+
+
+def _take(key: str, given: dict[str, float], action: str, sheet: Sheet) -> None:
+    try:
+        state.change(own=read_from(key, given, action, sheet), controller="own")
+        state.remember("box_refused", "")
+    except SimcError as error:
+        state.remember("box_refused", str(error))
+
+
+def _sampling(typed: Study, design: Design) -> None:
+    try:
+        longest = longest_sampling_period(typed.loop, design.actuator.law)
+    except SimcError:
+        return
+    if design.actuator.h > longest:
+        st.warning(
+            f"Sampling is slow for this loop: up to {number(longest)} {design.sheet.time_unit}".rstrip()
+            + " $M_s$ rises by 5 % at most. Shorten it, or set it as h of the half rule and tune again."
+        )
+
+
+def _column(judged: Margins) -> list[str]:
+    if not judged.stable:
+        return ["not stable"] * len(FIGURES)
+    return ["no limit" if math.isinf(value) else number(value) for value in (getattr(judged, name) for name in FIGURES)]
+
+
+def _unit(name: str, sheet: Sheet) -> str:
+    return "°" if name == "PM_deg" else unit_of(FIGURES[name], sheet) if FIGURES[name] else ""
+
+
+def _numbers_html(shown: list[dict[str, str]]) -> str:
+    cells = "".join(
+        "<div><small>{field}</small><b>{value}</b> <i>{unit}</i></div>".format(
+            **{name: escape(text) for name, text in row.items()}
+        )
+        for row in shown
+    )
+    return f'<div class="typed" role="status" aria-label="What is typed into the box">{cells}</div>'

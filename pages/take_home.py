@@ -1,0 +1,29 @@
+"""The settings as they are typed into the controller at home, and proof that it behaves as designed."""
+
+import streamlit as st
+
+from pages.common.parts.refusals import explain_refusal
+from pages.common.session import state
+from pages.common.shell import header
+from pages.common.studies.single import present_study
+from pages.common.take_home import view as take_home
+
+design = header.show("take_home")
+with explain_refusal():
+    present = present_study(design)
+    controls, shown = st.columns([4, 11], gap="medium")
+    with controls:
+        take_home.choose(design)
+        design = state.design_now()
+        if design.box:
+            take_home.in_the_box_now(design)
+    with shown:
+        if design.box:
+            with explain_refusal():
+                found = take_home.numbers(design, present)
+                take_home.proof(design, present, found)
+        else:
+            st.info(
+                "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
+                "numbers are another controller in another box."
+            )
