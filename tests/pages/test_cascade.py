@@ -51,7 +51,9 @@ def values(packed):
 def copied(app):
     """All settings on the tab, Ca before Cb and series, ideal, parallel for each, as far as they exist."""
     found = [text for text in copyables(app) if " = " in text]
-    return [{name: float(value) for name, value in (line.split(" = ") for line in text.splitlines())} for text in found]
+    lines = [dict(line.split(" = ") for line in text.splitlines()) for text in found]
+    assert {each.pop("action") for each in lines} == {"reverse"}
+    return [{name: float(value) for name, value in each.items()} for each in lines]
 
 
 def parallel(app):

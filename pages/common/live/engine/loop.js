@@ -3,8 +3,8 @@
 //     x' = A x + B w    y = Cy x + Dy w    z = u + d = Cz x + Dz w    w(t) = z(t - theta)
 //
 // x holds the sections of the plant, the controller's integral, with tau_F > 0 also the filtered y and r, and last r
-// and d, which are constant: a unit step of each is a column of the initial state. Where they are ramps, their slopes are
-// the last two states, and constant.
+// and d, which are constant: a unit step of each is a column of the initial state. Where they are ramps, their slopes
+// are the last two states, and constant.
 //
 // plant       {k, theta, lags, leads, integrators, lag_pairs, lead_pairs}, as simc_core's Plant; pairs are [tau, zeta]
 // controller  {Kp, Ki, Kd, tau_F, b, c}, as simc_core's ParallelPid
@@ -63,7 +63,10 @@ function chain(plant) {
   return { n, A, B, C: C.map((value) => plant.k * value), D: plant.k * D };
 }
 
-/** The system of the head of this file, ramped: with slopes; or null where this engine has none: a jump would have to be differentiated. */
+/**
+ * The system of the head of this file, or null where this engine has none: a jump would have to be differentiated.
+ * ramped: with slopes.
+ */
 export function openedLoop(plant, { Kp, Ki, Kd, tau_F, b, c }, ramped = false) {
   const g = chain(plant);
   const filtered = tau_F > 0;

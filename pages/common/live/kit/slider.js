@@ -92,12 +92,12 @@ export class Slider {
     this.handle.setAttribute("aria-valuetext", `${size}${this.symbol ? `, ${ratio} times theta` : ""}`);
   }
 
-  /** What the settings are there; exact: all digits on hover; measures: what each is of; action: in a word. */
+  /** The controller's settings there; exact: all digits on hover; measures: what each is of; action: in words. */
   tell(settings, exact, measures, action) {
-    const each = Object.entries(settings).map(
-      ([name, value]) =>
-        `<span title="${exact ? value : ""}">${typeset(name)} <b>${escaped(measured(text(value), measures[name]))}</b></span>`,
-    );
+    const each = Object.entries(settings).map(([name, value]) => {
+      const size = escaped(measured(text(value), measures[name]));
+      return `<span title="${exact ? value : ""}">${typeset(name)} <b>${size}</b></span>`;
+    });
     this.settings.innerHTML = [...each, `<span class="action">${action}</span>`].join("");
   }
 
