@@ -8,7 +8,7 @@ Noise: a new value in each step. One pinned core, interleaved, medians. A table,
 from dataclasses import replace
 
 from benchmarks.recompute import keep, median_times, pin
-from simc_core import Loop, Plant, Scenario, SeriesPid, simulate
+from simc_core import Actuation, Loop, Plant, Scenario, SeriesPid, simulate
 from simc_core.simulation.actuator.actuation import STEPS, Inputs
 from simc_core.simulation.actuator.continuous import actuated
 
@@ -18,15 +18,15 @@ LOOPS = {
     "order 4, PI": Loop(Plant(1, 1, (6, 3, 1, 0.5)), SeriesPid(1, 6)),
     "order 4, PID": Loop(Plant(1, 1, (6, 3, 1, 0.5)), SeriesPid(1.5, 6, 3, 0.3)),
 }
-LIMITED = Scenario(1.0, -0.5, 40.0, 80.0, u_min=-0.2, u_max=1.3)
+LIMITED = Scenario(1.0, -0.5, 40.0, 80.0, actuation=Actuation(u_min=-0.2, u_max=1.3))
 STEP = LIMITED.t_end / STEPS
 SITUATIONS = {
     "theta > 0": (1.0, LIMITED),
     "theta = 0": (0.0, LIMITED),
     "theta < step": (0.6 * STEP, LIMITED),
-    "sampled": (1.0, replace(LIMITED, h=STEP)),
-    "sampled, theta < step": (0.6 * STEP, replace(LIMITED, h=STEP)),
-    "noise": (1.0, replace(LIMITED, noise=0.01)),
+    "sampled": (1.0, replace(LIMITED, actuation=replace(LIMITED.actuation, h=STEP))),
+    "sampled, theta < step": (0.6 * STEP, replace(LIMITED, actuation=replace(LIMITED.actuation, h=STEP))),
+    "noise": (1.0, replace(LIMITED, actuation=replace(LIMITED.actuation, noise=0.01))),
 }
 
 

@@ -31,7 +31,7 @@ def figures(present: CascadeStudy) -> None:
 
 
 VIEWS = {"Live": instrument, "Figures": figures, "Bode": frequencies, "Settings": settings, "Windup": windup_view}
-PAIRS = "Paper's pairs"
+PAIRS = "Published pairs"
 
 design = header.show("cascade")
 present, refusal = attempt(design.cascade)

@@ -5,6 +5,7 @@ from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.certificate.verdict import NestedStability, Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import (
+    BoxError,
     FormError,
     InvalidParameter,
     NoOptimum,
@@ -14,7 +15,12 @@ from simc_core.errors import (
     ParseError,
     RuleEnds,
     SimcError,
+    WrongType,
 )
+from simc_core.implementation.boxes.box import Box
+from simc_core.implementation.boxes.catalogue import BOXES
+from simc_core.implementation.boxes.convert import Typed, from_box, to_box
+from simc_core.implementation.sampled_margins import longest_sampling_period, sampled_margins
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
@@ -38,14 +44,14 @@ from simc_core.plants.plant import Plant
 from simc_core.plants.ultimate_point import Ultimate
 from simc_core.read_back import read_back
 from simc_core.reduction.half_rule import half_rule
-from simc_core.reduction.records import Candidate, Reduction, Share, Step
+from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
 from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
-from simc_core.simulation import NestedResponse, Scenario, TimeResponse, simulate
+from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
 from simc_core.studies.comparison import EqualRobustness, at_equal_robustness, comparison
 from simc_core.studies.optimum import optimal, trade_off
 from simc_core.studies.sweep import Sweep, sweep

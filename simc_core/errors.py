@@ -1,5 +1,7 @@
 """Errors of the core. Every message names the field, its bound and the value received."""
 
+import math
+
 
 class SimcError(ValueError):
     """Base of all errors that a user's input can cause."""
@@ -48,3 +50,13 @@ class RuleEnds(InvalidParameter):
     def __init__(self, message: str, change: dict | None = None):
         super().__init__(message)
         self.change = change or {}
+
+
+class BoxError(SimcError):
+    """A number that a box does not take; `field` is its name there, `nearest` the nearest that it does, if any."""
+
+    def __init__(self, message: str, field: str = "", value: float = math.nan, nearest: float = math.nan):
+        super().__init__(message)
+        self.field = field
+        self.value = value
+        self.nearest = nearest

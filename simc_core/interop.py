@@ -17,16 +17,16 @@ from scipy import signal
 
 from simc_core import checks
 from simc_core.algebra.factors import Factored
-from simc_core.controllers.forms import Controller, ParallelPid
+from simc_core.controllers.forms import Controller, ParallelPid, needs_filter
 from simc_core.errors import FormError, InvalidParameter
 from simc_core.loops.loop import Loop
+from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
 
 HIGHEST_PADE = 20  # beyond it the coefficients of the approximation itself are rounding
 RATIONAL = (control.TransferFunction, control.StateSpace, signal.lti)
 NEGLIGIBLE = 1e-11  # of the fastest pole: an integrator that rounding moved
 INFINITE = 1e9  # times the fastest pole: a zero that rounding brought in from infinity
-ALGEBRAIC = 1e-12  # 1 + L(inf) below it is zero
 
 System = control.TransferFunction | control.StateSpace | signal.lti
 
@@ -48,7 +48,7 @@ def to_ss(system: Plant | Controller, pade_order: int | None = None) -> control.
     """
     form = system.factored
     if form.relative_degree < 0:
-        raise FormError("a state space needs tau_F > 0 with derivative action, got tau_F = 0")
+        raise FormError(needs_filter("in a state space"))
     parts = [control.ss([], [], [], [[form.gain]])]
     parts += [control.tf2ss(num, den) for num, den in _sections(form)]
     if form.theta:
@@ -102,21 +102,20 @@ def closed_loop(loop: Loop, pade_order: int | None = None) -> control.StateSpace
     """The loop as one state space: inputs r, d, outputs y, u; signs as in loop.py.
 
     Derivative action without a filter takes y' from the plant's states, which needs a plant that has inertia.
-    Raises InvalidParameter: theta > 0 without pade_order. FormError: y' does not exist (a plant without inertia, or
-    c > 0 without a filter); an algebraic loop.
+    Raises InvalidParameter: theta > 0 without pade_order; a loop that is not well-posed. FormError: y' does not exist
+    (a plant without inertia, or c > 0 without a filter).
     """
     plant, form = to_ss(loop.plant, pade_order), loop.controller.to_parallel()
     A, B, C, D = (np.asarray(matrix, dtype=float) for matrix in (plant.A, plant.B, plant.C, plant.D))
     if form.tau_F == 0 and form.Kd and (D.any() or form.c):
-        raise FormError("derivative action needs tau_F > 0 for this loop, got tau_F = 0")
+        raise FormError(needs_filter("on a signal that may jump"))
     # measured: y and y' of the plant, driven by u + d; the regulator turns r, y and y' into u
     Ar, Br, Cr, Dr = _filtered(form) if form.tau_F else _unfiltered(form)
     C, D = np.vstack([C, C @ A]), np.vstack([D, C @ B])
     into_u, from_y = Dr[:, :1], Dr[:, 1:]
     # u = Cr xr + into_u r + from_y (C x + D (u + d)), solved for u; from_y holds zero where y' is not used
     gain = 1.0 - float((from_y @ D)[0, 0])
-    if abs(gain) < ALGEBRAIC:
-        raise FormError(f"1 + L(inf) must not be zero (an algebraic loop), got {gain:.3g}")
+    require_well_posed(gain)
     K = np.hstack([from_y @ C, Cr]) / gain
     F = np.hstack([into_u, from_y @ D]) / gain
     load = np.array([[0.0, 1.0]])

@@ -31,6 +31,12 @@ def number(value: float, digits: int = DIGITS) -> str:
     return f"{mantissa}e{int(exponent)}"
 
 
+def rounded_up(value: float, digits: int = 3) -> float:
+    """`value` > 0 to `digits` significant digits, not below it."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - digits + 1)
+    return float(f"{math.ceil(value / unit * (1 - 1e-12)) * unit:.{digits}g}")
+
+
 def latex_number(value: float, digits: int = DIGITS) -> str:
     """`value` as LaTeX with `digits` significant digits."""
     text = number(value, digits).replace("∞", r"\infty").replace("−", "-").replace("–", r"\text{–}")

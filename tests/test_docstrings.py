@@ -19,7 +19,7 @@ def sections(text: str) -> dict[str, str]:
 def test_parameters_and_results_are_named(name):
     function = inspect.unwrap(FUNCTIONS[name])
     found = sections(inspect.getdoc(function))
-    heads = re.findall(r"^(\w+(?:, \w+)*) : \S", found["Parameters"], flags=re.MULTILINE)
+    heads = re.findall(r"^\*{0,2}(\w+(?:, \w+)*) : \S", found["Parameters"], flags=re.MULTILINE)
     named = [parameter for head in heads for parameter in head.split(", ")]
     assert set(named) == set(inspect.signature(function).parameters)
     assert len(named) == len(set(named))

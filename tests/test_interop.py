@@ -131,7 +131,7 @@ def test_pade_approaches_the_exact_response():
 def test_derivative_action_without_a_filter_is_a_transfer_function_but_no_state_space():
     controller = SeriesPid(2.0, 8.0, 1.0)
     assert controller_from(to_tf(controller)) == controller.to_parallel()
-    with pytest.raises(FormError, match="tau_F > 0"):
+    with pytest.raises(FormError, match="tau_F must be > 0"):
         to_ss(controller)
 
 
@@ -158,5 +158,5 @@ def test_what_has_no_equivalent_is_refused():
         plant_from(control.tf([1.0], [1.0, -0.5], dt=0.1))
     with pytest.raises(InvalidParameter, match="got str"):
         plant_from("1/(s+1)")
-    with pytest.raises(FormError, match="tau_F > 0"):
+    with pytest.raises(FormError, match="tau_F must be > 0"):
         closed_loop(Loop(Plant(1.0, 0.0, (4.0,), (1.0,)), SeriesPid(2.0, 8.0, 1.0)))

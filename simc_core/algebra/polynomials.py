@@ -8,8 +8,9 @@ from math import inf, log, sqrt
 import numpy as np
 
 from simc_core import checks
+from simc_core.algebra.exact_roots import polished
 from simc_core.algebra.factors import quadratic_roots
-from simc_core.algebra.square_free import square_free
+from simc_core.algebra.square_free import Polynomial, square_free
 from simc_core.errors import InvalidParameter
 
 CLUSTER_RADII = (0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # relative; tried from coarse to fine
@@ -29,8 +30,8 @@ class Factors:
 def factorise(name: str, polynomials: Iterable) -> Factors:
     """The product of `polynomials` (descending powers of s) as Factors.
 
-    Factors of degree 1 and 2 are exact, and so are multiplicities of roots above that (square_free); simple roots come
-    from the companion matrix, and roots that are one multiple root within rounding are taken as such.
+    Factors of degree 1 and 2 are exact, and so are multiplicities of roots above that (square_free); roots that are one
+    multiple root within rounding are taken as such, and others come from the companion matrix, polished (exact_roots).
     Raises InvalidParameter: empty, zero or non-finite coefficients, degree above checks.MOST_FACTORS.
     """
     constant, at_origin = 1.0, 0
@@ -42,12 +43,23 @@ def factorise(name: str, polynomials: Iterable) -> Factors:
             coefficients, at_origin = coefficients[:-1], at_origin + 1
         constant *= coefficients[-1]
         _check_sizes(name, coefficients)
-        for root in _roots(coefficients):
-            if root.imag == 0:
-                times.append(-1 / root.real)
-            elif root.imag > 0:
-                pairs.append((1 / abs(root), -root.real / abs(root)))
+        exact = tuple(Fraction(c) for c in coefficients.tolist()[::-1])  # doubles are, and whole numbers stay whole
+        more_times, more_pairs = _time_constants(_roots(exact))
+        times += more_times
+        pairs += more_pairs
     return Factors(checks.real(f"gain of the {name}", constant), at_origin, tuple(times), tuple(pairs))
+
+
+def factorise_exact(name: str, polynomial: Polynomial) -> Factors:
+    """The same of one polynomial in exact fractions, ascending powers of s, constant term 1."""
+    _check_sizes(name, np.array([float(c) for c in reversed(polynomial)]))
+    times, pairs = _time_constants(_roots(polynomial))
+    return Factors(1.0, 0, tuple(times), tuple(pairs))
+
+
+def _time_constants(roots: list[complex]) -> tuple[list[float], list[tuple[float, float]]]:
+    times = [-1 / root.real for root in roots if root.imag == 0]
+    return times, [(1 / abs(root), -root.real / abs(root)) for root in roots if root.imag > 0]
 
 
 def _trimmed(name: str, polynomial) -> np.ndarray:
@@ -74,7 +86,9 @@ def _check_sizes(name: str, coefficients: np.ndarray) -> None:
         )
 
 
-def _roots(coefficients: np.ndarray) -> list[complex]:
+def _roots(exact: Polynomial) -> list[complex]:
+    """Of a polynomial in ascending powers of s."""
+    coefficients = np.array([float(c) for c in reversed(exact)])
     degree = len(coefficients) - 1
     if degree == 0:
         return []
@@ -82,10 +96,9 @@ def _roots(coefficients: np.ndarray) -> list[complex]:
         return [complex(-coefficients[1] / coefficients[0])]
     if degree == 2:
         return _quadratic(*coefficients)
-    parts = square_free(tuple(Fraction(float(c)) for c in reversed(coefficients)))
-    if len(parts) > 1 or parts[0][1] > 1:  # doubles are exact rationals, and whole numbers stay whole
-        simple = [(np.array([float(c) for c in reversed(part)]), multiplicity) for part, multiplicity in parts]
-        return [root for part, multiplicity in simple for root in _roots(part) for _ in range(multiplicity)]
+    parts = square_free(exact)
+    if len(parts) > 1 or parts[0][1] > 1:
+        return [root for part, multiplicity in parts for root in _roots(part) for _ in range(multiplicity)]
     with np.errstate(all="ignore"):
         scale = (abs(coefficients[-1]) / abs(coefficients[0])) ** (1 / degree)
         scaled = coefficients * scale ** np.arange(degree, -1.0, -1.0)
@@ -93,7 +106,12 @@ def _roots(coefficients: np.ndarray) -> list[complex]:
     if not np.all(np.isfinite(scaled)) or scaled[0] == 0:
         sizes = f"{coefficients[0]:g} to {coefficients[-1]:g}"
         raise InvalidParameter(f"coefficients of one polynomial must be of comparable size, got {sizes}")
-    return [complex(root) * scale for root in _merged(np.roots(scaled), scaled)]
+    roots = np.roots(scaled)
+    merged = _merged(roots, scaled)
+    if merged is None:
+        unit = Fraction(scale)
+        merged = polished(tuple(c * unit**i for i, c in enumerate(exact)), roots.tolist())
+    return [complex(root) * scale for root in merged]
 
 
 def _quadratic(a: float, b: float, c: float) -> list[complex]:
@@ -104,14 +122,16 @@ def _quadratic(a: float, b: float, c: float) -> list[complex]:
     return list(roots)
 
 
-def _merged(roots: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
-    """Roots with clusters replaced by their mean, where that is the same polynomial."""
+def _merged(roots: np.ndarray, coefficients: np.ndarray) -> np.ndarray | None:
+    """Roots with clusters replaced by their mean, where there are some and that is the same polynomial."""
     for radius in CLUSTER_RADII:
         candidate = _clustered(roots, radius)
+        if len(np.unique(candidate)) == len(candidate):
+            return None
         product = np.real(np.poly(candidate)) * coefficients[0]
         if np.allclose(product, coefficients, rtol=SAME_POLYNOMIAL, atol=0):
             return candidate
-    return roots
+    return None
 
 
 def _clustered(roots: np.ndarray, radius: float) -> np.ndarray:

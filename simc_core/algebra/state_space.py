@@ -5,6 +5,8 @@
 The engine of the time responses works on the sections; a state space is there for those who need one.
 """
 
+import math
+
 import numpy as np
 
 from simc_core.algebra.factors import Factored
@@ -16,7 +18,8 @@ def sections(F: Factored, unit: float = 1.0) -> list[tuple[Row, Row]]:
     """Numerators and denominators whose product is F/gain without its dead time, F proper; time in `unit`.
 
     Quadratics first, first-order factors multiplied in pairs, at most one of first order left, at the end: so no
-    numerator has a higher degree than its denominator, and the last section is strictly proper if F is.
+    numerator has a higher degree than its denominator, and the last section is strictly proper if F is. First-order
+    factors go from slow to fast: zeros and poles of one speed are in one section, and no signal between is too large.
     """
     num, den = _paired(F.num, unit), _paired(F.den, unit)
     num += [(0.0, 0.0, 1.0)] * (len(den) - len(num))
@@ -46,8 +49,12 @@ def chain(F: Factored, unit: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.nd
 def _paired(rows: np.ndarray, unit: float) -> list[Row]:
     scaled = [(a / unit**2, b / unit, c) for a, b, c in rows.tolist()]
     quadratics = [row for row in scaled if row[0]]
-    linear = [row for row in scaled if not row[0]]
+    linear = sorted([row for row in scaled if not row[0]], key=_slowness, reverse=True)
     while len(linear) > 1:
         (_, b1, c1), (_, b2, c2) = linear.pop(0), linear.pop(0)
         quadratics.append((b1 * b2, b1 * c2 + b2 * c1, c1 * c2))
     return quadratics + linear
+
+
+def _slowness(row: Row) -> float:
+    return abs(row[1] / row[2]) if row[2] else math.inf

@@ -9,13 +9,15 @@ Where Ms is given instead, the smallest tau_c (or lambda) is taken at which the 
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 from simc_core import checks
 from simc_core.certificate.verdict import NestedStability, Stability, stability
-from simc_core.controllers.forms import Controller, IController, ParallelPid
+from simc_core.controllers.forms import Controller, ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.optimal.speed_for_peak import fastest
+from simc_core.notation import DIGITS, number, rounded_up
+from simc_core.optimal.speed_for_peak import smallest_speed_with_peak
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.reduction.half_rule import half_rule
@@ -107,12 +109,12 @@ def simc_cascade(
     effective = replace(primary, theta=primary.theta + model.theta, lags=(*primary.lags, tau_cb))
     reduced = half_rule(effective, _order("outer", outer)).model
     Ca, tau_ca = _tuned(reduced, tau_c_outer, "outer", Ms_outer, lambda C: NestedLoops((secondary, primary), (Cb, C)))
-    Ca = Ca if isinstance(Ca, IController) else replace(Ca, b=b)
+    Ca = Ca.with_weight(b)
     notes = []
     if tau_ca < SEPARATE * tau_cb:
         notes.append(
             f"tau_c_outer is {tau_ca / tau_cb:.3g} times tau_c_inner, {SEPARATE:g} times is usual for the loops to "
-            f"separate: take tau_c_outer = {SEPARATE * tau_cb:.4g}"
+            f"separate: take tau_c_outer = {number(rounded_up(SEPARATE * tau_cb, DIGITS))}"
         )
     loop = CascadeLoop(primary, secondary, Ca, Cb)
     return CascadeDesign(loop, Cb, Ca, tau_cb, tau_ca, models=(model, reduced), notes=(*notes, *_on_inner(loop)))
@@ -163,10 +165,41 @@ def synthesis_cascade(
     [PSB].
     """
 
+    asked = {
+        "Ms_inner": Ms_inner, "Ms_outer": Ms_outer, "inner": inner, "outer": outer, "N_inner": N_inner,
+        "N_outer": N_outer, "lambda_inner": lambda_inner, "lambda_outer": lambda_outer, "b": b,
+    }  # fmt: skip
+    design = _synthesised(primary, secondary, **asked)
+    notes = [
+        *_on_filter("inner", design, primary, secondary, asked),
+        *_on_filter("outer", design, primary, secondary, asked),
+        *_on_dead_time("secondary", secondary, secondary.theta),
+        *_on_dead_time("primary", primary, primary.theta + secondary.theta),
+        *_on_inner(design.loop),
+    ]
+    return replace(design, notes=tuple(notes))
+
+
+def _synthesised(
+    primary: Plant,
+    secondary: Plant,
+    *,
+    Ms_inner: float,
+    Ms_outer: float,
+    inner: str,
+    outer: str,
+    N_inner: float,
+    N_outer: float | None,
+    lambda_inner: float | None,
+    lambda_outer: float | None,
+    b: float,
+) -> CascadeDesign:
+    """As `synthesis_cascade`, without notes."""
+
     def inside(lambda_: float) -> NestedLoops:
         return NestedLoops((secondary,), (direct_synthesis(secondary, lambda_, inner, N_inner),))
 
-    lambda_b = _speed("lambda_inner", lambda_inner, "Ms_inner", Ms_inner, inside, _time_of(secondary))
+    lambda_b = _speed("lambda_inner", lambda_inner, "Ms_inner", Ms_inner, inside, secondary.total_time or 1.0)
     closed = inside(lambda_b)
     Cb = closed.controllers[0]
     tau_F = float(numerator(secondary, lambda_b)[1]) if N_outer is None and secondary.order else None
@@ -177,18 +210,16 @@ def synthesis_cascade(
         return NestedLoops((secondary, primary), (Cb, Ca))
 
     lambda_a = _speed(
-        "lambda_outer", lambda_outer, "Ms_outer", Ms_outer, outside, _time_of(primary) + secondary.theta + lambda_b
+        "lambda_outer",
+        lambda_outer,
+        "Ms_outer",
+        Ms_outer,
+        outside,
+        (primary.total_time or 1.0) + secondary.theta + lambda_b,
     )
     Ca = outside(lambda_a).controllers[1]
     loop = CascadeLoop(primary, secondary, Ca, Cb)
-    notes = [
-        *_on_filter("inner", inner, Cb, N_inner),
-        *_on_filter("outer", outer, Ca, N_outer),
-        *_on_dead_time("secondary", secondary, secondary.theta),
-        *_on_dead_time("primary", primary, primary.theta + secondary.theta),
-        *_on_inner(loop),
-    ]
-    return CascadeDesign(loop, Cb, Ca, lambda_inner=lambda_b, lambda_outer=lambda_a, notes=tuple(notes))
+    return CascadeDesign(loop, Cb, Ca, lambda_inner=lambda_b, lambda_outer=lambda_a)
 
 
 def _order(name: str, kind: str) -> int:
@@ -216,7 +247,7 @@ def _tuned(
 
 def _filtered(controller: Controller, tau_c: float) -> Controller:
     """With the filter of a PID."""
-    if isinstance(controller, IController) or controller.tau_D == 0:
+    if "tau_F" not in controller.OPTIONAL or controller.tau_D == 0:
         return controller
     return replace(controller, tau_F=tau_c / FILTER)
 
@@ -226,34 +257,45 @@ def _speed(name: str, given: float | None, Ms_name: str, Ms: float | None, at, s
     if given is not None:
         return checks.positive_time(name, given)
     Ms = checks.real(Ms_name, Ms, LOWEST_MS, HIGHEST_MS)
-    return fastest(at, Ms, scale, name, Ms_name)
+    return smallest_speed_with_peak(at, Ms, scale, name, Ms_name)
 
 
-def _time_of(block: Plant) -> float:
-    return block.theta + sum(map(abs, block.lags)) + sum(tau for tau, _ in block.lag_pairs) or 1.0
+FILTERS = {
+    "inner": (("N_inner = 1", {"N_inner": 1.0}),),
+    "outer": (("N_outer = 1", {"N_outer": 1.0}), ("the filter that cancels the inner zero", {"N_outer": None})),
+}
 
 
-def _on_filter(loop: str, kind: str, controller: ParallelPid, N: float | None) -> list[str]:
-    if kind == "PI" or controller.Kd * controller.Ki > 0:
+def _on_filter(loop: str, design: CascadeDesign, primary: Plant, secondary: Plant, asked: dict[str, Any]) -> list[str]:
+    """A derivative gain of the wrong sign, and the filters with which it has the right one; without D there is none."""
+    controller = getattr(design, loop)
+    if _signs_agree(controller):
         return []
-    if loop == "inner":
-        other = "N_inner = 1, or a PI inside"
-    else:
-        other = "N_outer = 1" if N is None else "N_outer = 1, the filter that cancels the inner zero"
-        other += ", or a PI outside"
+    cures = []
+    for words, change in FILTERS[loop]:
+        try:
+            changed = _synthesised(primary, secondary, **asked | change)
+        except InvalidParameter:
+            continue
+        if _signs_agree(getattr(changed, loop)):
+            cures.append(words)
+    cures.append(f"a PI {'inside' if loop == 'inner' else 'outside'}")
     return [
         f"Kd of the {loop} controller should have the sign of Ki = {controller.Ki:.4g}, got {controller.Kd:.4g} "
-        f"with tau_F = {controller.tau_F:.4g}: try {other}"
+        f"with tau_F = {controller.tau_F:.4g}: take {', or '.join(cures)}"
     ]
 
 
+def _signs_agree(controller: ParallelPid) -> bool:
+    return controller.Kd == 0 or controller.Kd * controller.Ki > 0
+
+
 def _on_dead_time(name: str, block: Plant, theta: float) -> list[str]:
-    slowest = max([*map(abs, block.lags), *(tau for tau, _ in block.lag_pairs)], default=0.0)
-    if block.integrators or theta <= DOMINANT * slowest:
+    if block.integrators or theta <= DOMINANT * block.slowest:
         return []
     return [
-        f"theta = {theta:.4g} in the loop of the {name} block should be <= {slowest:.4g}, its slowest time constant: "
-        "direct synthesis is not meant for dominating dead time, compare with SIMC"
+        f"theta = {theta:.4g} in the loop of the {name} block should be <= {block.slowest:.4g}, its slowest time "
+        "constant: direct synthesis is not meant for dominating dead time, compare with SIMC"
     ]
 
 
@@ -290,5 +332,5 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
     def at(lambda_: float) -> NestedLoops:
         return NestedLoops((product,), (direct_synthesis(product, lambda_, kind),))
 
-    lambda_ = fastest(at, Ms, _time_of(product), "lambda", "Ms")
+    lambda_ = smallest_speed_with_peak(at, Ms, product.total_time or 1.0, "lambda", "Ms")
     return CascadeLoop(primary, secondary, at(lambda_).controllers[0], None)

@@ -29,7 +29,7 @@ CLEARLY = 1 - 1e-12  # dominated by no less
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Segments:
+class ArgumentChange:
     """angle of f, and whether f is zero within rounding, at the nodes, (N,); the others on the segments, (N-1,).
 
     change: of the angle, where it is certain.   excess: K (b - a)/(|f(a)| + |f(b)|), below 1 on short ones.
@@ -56,7 +56,7 @@ class _Values(NamedTuple):
     noise: np.ndarray
 
 
-class Family:
+class BatchedSum:
     """Functions with the same table of exponents: n of them, of K terms with M factors."""
 
     def __init__(self, functions: Sequence[Characteristic]):
@@ -76,7 +76,7 @@ class Family:
             smallest = np.abs(b) * np.sqrt(np.abs(c / a - (b / (2 * a)) ** 2))
             self.smallest = np.log(np.maximum(smallest, SMALLEST))
 
-    def at(self, nodes: Nodes) -> Segments:
+    def at(self, nodes: Nodes) -> ArgumentChange:
         """The tests of the module docstring. Between two loops there may be anything."""
         v, t = self._values(nodes.omega, nodes.owner), self.table
         (K, M), width = t.exponents.shape, nodes.omega[1:] - nodes.omega[:-1]
@@ -98,7 +98,7 @@ class Family:
         angle = np.arctan2(v.f.imag, v.f.real)
         turn = angle[1:] - angle[:-1]
         followed = (dominated * (v.phase[:, 1:] - v.phase[:, :-1])).sum(0)  # half a turn from it at most
-        return Segments(
+        return ArgumentChange(
             angle,
             room <= 0,
             turn - math.tau * np.rint((turn - followed) / math.tau),

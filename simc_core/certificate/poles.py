@@ -8,26 +8,36 @@ dz_j/dt = (2/theta) sum_k D_jk z_k with the Chebyshev differentiation matrix, fe
 
 (Breda, Maset and Vermiglio 2005: the discretised generator). Its eigenvalues approach the rightmost poles faster than
 any power of N. Those of high frequency, a chain with one pole per turn of the dead time, start from their asymptotes
-instead. Newton on 1 + L(s) = 0 takes all to full precision, and drops what is no pole. Poles that a zero of
-the controller cancels are not in 1 + L: they are known exactly, and reported as well.
+instead, and so do those about a resonance. Newton on 1 + L(s) = 0 takes all to full precision, and drops what is no
+pole. Poles that a zero of the controller cancels are not in 1 + L: they are known exactly, and reported as well.
+
+That none is missing is for the certificate to say: with the imaginary axis moved to between two of the poles it counts
+those on the right of it. The list ends where they are not as many.
 """
 
+from bisect import bisect_left
 from dataclasses import dataclass
 
 import numpy as np
 
 from simc_core.algebra.factors import Factored, factors, without_common
 from simc_core.algebra.state_space import chain
+from simc_core.certificate.characteristic import shifted
+from simc_core.certificate.verdict import count_unstable
+from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
+from simc_core.loops.well_posed import is_well_posed
 
 FEWEST_NODES, MOST_NODES = 20, 120
 NODES_PER_RADIAN = 1.0  # beyond FEWEST_NODES, for theta omega of the fastest oscillation worth seeing
 NEWTON_STEPS = 12
 CHAIN_STEPS = 3
 FAR_LEFT = -(2.0 ** np.arange(0.0, 6.0, 0.25))  # theta s of real poles that the discretisation has not resolved
+ABOUT = 8  # turns on either side of a resonance
+BESIDE = 1e-6 * (1 + 1j)  # relative distance from an open-loop pole, on which L is infinite
 SETTLED = 1e-12
+APART = 1e-6  # relative, of the real parts of two poles between which there is room for the axis
 SAME = 1e-14  # relative, of coefficients that were the same before they were rounded
-ILL_POSED = 1e-12  # |1 + L(inf)| without dead time
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +56,8 @@ class ClosedLoopPole:
 def dominant_poles(loop: Loop, most: int = 8) -> tuple[ClosedLoopPole, ...]:
     """The rightmost closed-loop poles, from right to left: real ones, and one of each complex pair.
 
-    For display and cross-checks; `stability` does not rely on it. A loop without dynamics has none, nor has an
-    improper one.
+    None is left out: the list ends early where the certificate counts more poles than were found. A loop without
+    dynamics has none, nor has an improper one; of a neutral one, those to the right of its line, or on it.
 
     Parameters
     ----------
@@ -69,7 +79,33 @@ def dominant_poles(loop: Loop, most: int = 8) -> tuple[ClosedLoopPole, ...]:
         reduced, np.concatenate([rightmost(reduced)[: 16 + 4 * most], _chain_start(reduced, 8 + 2 * most)])
     )
     poles = [_described(s, False) for s in found] + [_described(s, True) for s in hidden if s.imag >= 0]
-    return tuple(sorted(poles, key=_from_right)[:most])
+    poles.sort(key=_from_right)
+    if L.theta:
+        poles = poles[: _confirmed(reduced, poles, most)]
+    return tuple(poles[:most])
+
+
+def _confirmed(L: Factored, poles: list[ClosedLoopPole], most: int) -> int:
+    """How many of the poles, from right to left, there are none missing among, by the certificate."""
+    real = [pole.s.real for pole in poles]
+    if L.relative_degree == 0 and poles and real[0] - real[-1] <= APART * abs(real[0]):
+        return most  # the line of a neutral loop, on which they are countless
+    axes = {k: (real[k - 1] + real[k]) / 2 for k in range(1, min(len(poles), most + 1))}
+    axes = {k: axis for k, axis in axes.items() if real[k - 1] - axis > APART * abs(poles[k].s)}
+    if 0 < len(poles) <= most:
+        axes[len(poles)] = real[-1] - APART * abs(poles[-1].s)
+
+    def missing(k: int) -> bool:
+        found = sum(2 if pole.s.imag else 1 for pole in poles[:k] if not pole.cancelled)
+        try:
+            return count_unstable([shifted(L, axes[k])]).unstable_poles != found
+        except InvalidParameter:  # too wild to be counted
+            return True
+
+    counts = [0, *axes]
+    if axes and not missing(counts[-1]):
+        return counts[-1]
+    return counts[bisect_left(counts, True, lo=1, key=missing) - 1]
 
 
 def rightmost(L: Factored) -> np.ndarray:
@@ -78,7 +114,7 @@ def rightmost(L: Factored) -> np.ndarray:
     """
     unit = L.theta or 1.0
     A, B, C, D = chain(L, unit)
-    if L.theta == 0 and abs(1 + D) < ILL_POSED:
+    if L.theta == 0 and not is_well_posed(1 + D):
         return np.zeros(0, dtype=complex)  # no loop at all
     if L.theta == 0:
         generator = A - np.outer(B, C) / (1 + D)
@@ -151,12 +187,24 @@ def _chain_start(L: Factored, count: int) -> np.ndarray:
     """
     if L.theta == 0:
         return np.array([], dtype=complex)
-    P = Factored(L.gain, L.num, L.den)
-    turns = 2j * np.pi * np.arange(1, count + 1)
+    P, poles = Factored(L.gain, L.num, L.den), L.poles
+    resonances = np.unique(np.round(L.theta * poles.imag[poles.imag > np.abs(poles.real)] / (2 * np.pi)))
+    about = (resonances[:, None] + np.arange(-ABOUT, ABOUT + 1)).ravel()
+    turns = 2j * np.pi * np.unique(np.concatenate([np.arange(1, count + 1), about[about > count]]))
     s = turns / L.theta
+    found = [_beside_poles(L), s[count:]]
     for _ in range(CHAIN_STEPS):
         s = (np.log(-P(s)) + turns) / L.theta
+    s = np.concatenate([*found, s])
     return np.concatenate([s[np.isfinite(s)], FAR_LEFT / L.theta])
+
+
+def _beside_poles(L: Factored) -> np.ndarray:
+    """First guesses next to open-loop poles that the loop hardly moves: one step of Newton on 1 + 1/L = 0."""
+    s = L.poles[L.poles.imag >= 0] * (1 + BESIDE)
+    with np.errstate(all="ignore"):
+        value, slope = _with_log_derivative(L, _in_pairs(L), s)
+        return s + (1 + value) / slope
 
 
 def _in_pairs(L: Factored) -> np.ndarray:

@@ -28,6 +28,7 @@ from simc_core.certificate.winding import winding, windings
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
+from simc_core.loops.well_posed import require_well_posed
 
 SAME = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
@@ -183,8 +184,8 @@ def _verdicts(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
 def _at_infinity(f: Characteristic) -> Stability | None:
     """The verdict where |L(inf)| decides on it. Raises InvalidParameter for ill-posed loops."""
     neutral = f.neutral
-    if f.delayed == 0 and abs(f.limit) <= SAME:
-        raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: the loop is ill-posed")
+    if f.delayed == 0:
+        require_well_posed(f.limit)
     if abs(neutral - 1) <= SAME:
         return Stability("marginal", 0, neutral)
     return Stability("unstable", math.inf, neutral) if neutral > 1 else None

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core.algebra.factors import roots_of
-from simc_core.certificate.argument_bounds import Family
+from simc_core.certificate.argument_bounds import BatchedSum
 from simc_core.certificate.characteristic import Characteristic
 from simc_core.certificate.segments import Nodes, geometric, side_by_side, split
 from simc_core.errors import InvalidParameter
@@ -60,7 +60,7 @@ def windings(functions: Sequence[Characteristic]) -> list[Winding]:
 
 def _together(functions: Sequence[Characteristic]) -> list[Winding]:
     """Those with the same table of exponents."""
-    n, family = len(functions), Family(functions)
+    n, batch = len(functions), BatchedSum(functions)
     grid, ends = _first_grid([_range(f) for f in functions])
     turned, work, touches = np.zeros(n), np.zeros(n), np.array([math.nan] * n)
     waiting = [grid]
@@ -71,7 +71,7 @@ def _together(functions: Sequence[Characteristic]) -> list[Winding]:
             work += np.bincount(owner, nodes.live, n)
             if work.max() > MOST_SEGMENTS:
                 _refuse(functions, work)
-            found = family.at(nodes)
+            found = batch.at(nodes)
             if nodes is grid:
                 last = found.angle[ends].tolist()
             counts = nodes.live & found.certain

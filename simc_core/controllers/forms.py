@@ -49,12 +49,19 @@ class _Forms:
     """What all forms share, by way of the parallel one."""
 
     __slots__ = ()
-    SETTINGS: ClassVar[tuple[str, ...]]  # names of what is set in this form; filter and weights come on top
+    SETTINGS: ClassVar[tuple[str, ...]]  # names of what is set in this form
+    OPTIONAL: ClassVar[tuple[str, ...]] = ("tau_F", "b", "c")  # filter and weights, which come on top
 
     @property
     def settings(self) -> dict[str, float]:
         """The settings of this form by name, filter and weights apart."""
         return {name: getattr(self, name) for name in self.SETTINGS}
+
+    @property
+    def action(self) -> str:
+        """reverse, where the output falls when the measurement rises, or direct: by the sign of the gain."""
+        form = self.to_parallel()
+        return "reverse" if (form.Kp or form.Ki or form.Kd) > 0 else "direct"
 
     def in_form(self, form: str) -> "Controller":
         """The same controller in one of FORMS; pure integral action stays what it is. Raises FormError."""
@@ -67,6 +74,14 @@ class _Forms:
         except FormError:
             return False
         return True
+
+    def with_filter(self, ratio: float) -> "Controller":
+        """The same controller with tau_F = ratio tau_D; pure integral action has no filter and stays what it is."""
+        return replace(self, tau_F=ratio * self.tau_D)
+
+    def with_weight(self, b: float) -> "Controller":
+        """The same controller with set-point weight b; pure integral action has none and stays what it is."""
+        return replace(self, b=b)
 
     def rescaled(self, time: Fraction = Fraction(1), gain: float = 1.0) -> "Controller":
         """The same controller in other units.
@@ -85,7 +100,7 @@ class _Forms:
         """
         power = {"Kc": 0, "Kp": 0, "tau_I": 1, "tau_D": 1, "tau_F": 1, "Ki": -1, "K_I": -1, "Kd": 1}
         values = {}
-        for name in (*self.SETTINGS, *(("tau_F",) if hasattr(self, "tau_F") else ())):
+        for name in (*self.SETTINGS, *(name for name in self.OPTIONAL if name in power)):
             value = getattr(self, name) * (1.0 if name.startswith("tau") else gain)
             ratio = time ** power[name]
             values[name] = value * ratio.numerator / ratio.denominator
@@ -211,6 +226,10 @@ class ParallelPid(_Forms):
         """Feedback path as the engine sees it."""
         return _parallel(self.Kp, self.Ki, self.Kd, self.tau_F)
 
+    def with_filter(self, ratio: float) -> "ParallelPid":
+        """The same controller with tau_F = ratio Kd/Kp. Raises FormError where there is no such time."""
+        return replace(self, tau_F=ratio * self.to_ideal().tau_D if self.Kd else 0.0)
+
     def to_series(self) -> SeriesPid:
         """The same controller in series form; FormError where there is none."""
         return self.to_ideal().to_series()
@@ -237,6 +256,7 @@ class IController(_Forms):
     """K_I/s, the SIMC controller of pure dead time [SK03 Table 1]."""
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("K_I",)
+    OPTIONAL: ClassVar[tuple[str, ...]] = ()
     K_I: float
 
     def __post_init__(self):
@@ -251,6 +271,14 @@ class IController(_Forms):
         """Itself in every form: it has nothing but K_I."""
         return self
 
+    def with_filter(self, ratio: float) -> "IController":
+        """Itself."""
+        return self
+
+    def with_weight(self, b: float) -> "IController":
+        """Itself."""
+        return self
+
     def to_series(self) -> SeriesPid:
         """Raises FormError: a pure integrator is the limit tau_I -> 0 of a series form, not one itself."""
         raise FormError(f"pure integral action has no series form with tau_I > 0, got K_I = {self.K_I:g}")
@@ -262,6 +290,11 @@ class IController(_Forms):
     def to_parallel(self) -> ParallelPid:
         """The same controller in parallel form: Ki = K_I, Kp = Kd = 0."""
         return ParallelPid(0.0, self.K_I)
+
+
+def needs_filter(why: str) -> str:
+    """The refusal of a derivative without a filter. why: what it acts on, as "on ..."."""
+    return f"tau_F must be > 0 for derivative action {why}, got 0"
 
 
 Controller = SeriesPid | IdealPid | ParallelPid | IController

@@ -4,7 +4,7 @@ import math
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
-from simc_core.reduction.records import Reduction, Share
+from simc_core.reduction.records import BudgetEntry, Reduction
 
 # where a part went -> (words, colour, pattern): the pattern says what the colour says
 FATES = {
@@ -20,17 +20,17 @@ FATES = {
 
 
 def budget_figure(reduction: Reduction, height: int | None = None) -> Figure:
-    """Horizontal bars, one per Share of the reduction; an integrator, a lag without limit, is drawn to the edge."""
-    shares = reduction.budget
-    finite = [abs(share.amount) for share in shares if math.isfinite(share.amount)]
+    """Horizontal bars, one per BudgetEntry; an integrator, a lag without limit, is drawn to the edge."""
+    entries = reduction.budget
+    finite = [abs(share.amount) for share in entries if math.isfinite(share.amount)]
     edge = 1.15 * max(finite, default=1.0)
-    traces = [trace for fate in FATES if (trace := _bars(fate, shares, edge))]
-    rows = list(range(len(shares)))
+    traces = [trace for fate in FATES if (trace := _bars(fate, entries, edge))]
+    rows = list(range(len(entries)))
     return palette.figure(
         traces,
         palette.axis("time constant  [time unit]", rangemode="tozero"),
-        palette.axis("", tickvals=rows, ticktext=[share.label for share in shares], autorange="reversed"),
-        height or 70 + 34 * len(shares),
+        palette.axis("", tickvals=rows, ticktext=[share.label for share in entries], autorange="reversed"),
+        height or 70 + 34 * len(entries),
         barmode="stack",
         hovermode="closest",
         bargap=0.3,
@@ -42,11 +42,11 @@ def fate(where: str) -> str:
     return where if where in FATES else "cancelled"
 
 
-def _bars(name: str, shares: tuple[Share, ...], edge: float) -> Trace | None:
+def _bars(name: str, entries: tuple[BudgetEntry, ...], edge: float) -> Trace | None:
     words, color, pattern = FATES[name]
     found = [
         (row, where, time)
-        for row, share in enumerate(shares)
+        for row, share in enumerate(entries)
         for where, time in share.parts
         if fate(where) == name and time
     ]

@@ -39,7 +39,7 @@ class Turns:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Crossings:
+class LevelCrossings:
     """k places where series (R, P) pass through levels (L, R), in order of level.
 
     level, row: which.   interval: between which samples.   x: place.   sign: of series - level in front of it.
@@ -56,11 +56,11 @@ class Crossings:
     begin: np.ndarray
     ends: np.ndarray
 
-    def of_first_level(self) -> "Crossings":
+    def of_first_level(self) -> "LevelCrossings":
         """Those through the first level."""
         k = self.level.searchsorted(1)
         along = (each[:k] for each in (self.level, self.row, self.interval, self.x, self.sign))
-        return Crossings(*along, self.basis[:, :k], self.begin[:1], self.ends)
+        return LevelCrossings(*along, self.basis[:, :k], self.begin[:1], self.ends)
 
     def of(self, series: np.ndarray) -> np.ndarray:
         """Values of other series (R, P) there."""
@@ -76,7 +76,7 @@ class Crossings:
         return found
 
 
-def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None) -> Crossings:
+def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None) -> LevelCrossings:
     """Of the series (R, P) through levels (L, R), -inf or nan for none.   turns: of the series."""
     values, size = series @ VANDERMONDE, np.add.reduce(np.abs(series), axis=1)
     below = values < levels[:, :, None]
@@ -93,7 +93,7 @@ def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None
     own[0] -= through
     x, basis = _polished(own, ROUNDING * size[row], low, high, first - through, last - through)
     sign, ends = 1.0 - 2.0 * (first < through), 1.0 - 2.0 * below[0, :, ::INTERVALS].T
-    return Crossings(level, row, interval, x, sign, basis, below[:, :, 0], ends)
+    return LevelCrossings(level, row, interval, x, sign, basis, below[:, :, 0], ends)
 
 
 def _with_lobes(found, turns: Turns, values: np.ndarray, below: np.ndarray, levels: np.ndarray):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.metrics.piece_zeros import SLOPE, Crossings, Turns, crossings
+from simc_core.metrics.piece_zeros import SLOPE, LevelCrossings, Turns, crossings
 from simc_core.simulation.collocation.elements import P
 from simc_core.simulation.collocation.pieces import ENDS
 
@@ -24,6 +24,7 @@ LEVELS = np.array(  # the end, 10 % and 90 %, the band of 2 %; of a load step in
     [[1.0, 0.1, 0.9, 0.98, 1.02], [0.0, np.nan, np.nan, -0.02, 0.02]]
 )[:, :, None]
 LEAST_OVERSHOOT = 1e-10  # less than that is rounding
+FLAT = 1e-13  # relative; y this near its peak is there: of a flat top the first instant counts
 TINY = 1e-300
 
 
@@ -80,7 +81,8 @@ class StepMetrics:
     """For a unit step. Times in the user's unit, from the step on.
 
     overshoot: of a set-point step, beyond 1 as a fraction; of a load step, beyond 0 on the other side as a fraction of
-    the peak.   peak, peak_time: largest y of a set-point step, largest abs(y) of a load step (with its sign).
+    the peak.   peak, peak_time: largest y of a set-point step, largest abs(y) of a load step (with its sign);
+    a set-point step without overshoot has no peak_time: nan.
     rise_time: 10 % to 90 %, nan for a load step.   settling_time: within 2 % of the step, of the peak for a load step.
     """
 
@@ -148,8 +150,8 @@ def measures(steps: Steps, with_times: bool = True) -> Measures:
 def _extremes(
     steps: Steps, left: np.ndarray, right: np.ndarray, turns: Turns
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """peak: largest y of a set-point step, y of largest size of a load step; the first time it is reached; and the
-    overshoot. left, right: y at the ends.
+    """peak: largest y of a set-point step, y of largest size of a load step; the first time it is reached, nan where
+    a set-point step has no overshoot; and the overshoot. left, right: y at the ends.
     """
     owner = np.concatenate([steps.owner, steps.owner, steps.owner[turns.row]])
     values = np.concatenate([left, right, turns.value])
@@ -159,10 +161,11 @@ def _extremes(
     np.maximum.at(high, owner, values)
     np.minimum.at(low, owner, values)
     peak = np.where(step | (high >= -low), high, low)
-    at_peak = values == peak[owner]
+    at_peak = np.abs(values - peak[owner]) <= FLAT * np.abs(peak[owner])
     np.minimum.at(time, owner[at_peak], times[at_peak])
     beyond = np.where(step, peak - 1, np.where(peak > 0, -low, high) / np.maximum(np.abs(peak), TINY))
-    return peak, time, np.where(beyond > LEAST_OVERSHOOT, beyond, 0.0)
+    passed = beyond > LEAST_OVERSHOOT
+    return peak, np.where(passed | ~step, time, np.nan), np.where(passed, beyond, 0.0)
 
 
 def _levels(steps: Steps, peak: np.ndarray) -> np.ndarray:
@@ -170,7 +173,7 @@ def _levels(steps: Steps, peak: np.ndarray) -> np.ndarray:
     return np.where(steps.target, LEVELS[0], LEVELS[1] * np.abs(peak))
 
 
-def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: Crossings) -> tuple[np.ndarray, np.ndarray]:
+def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: LevelCrossings) -> tuple[np.ndarray, np.ndarray]:
     """int |e| and int t |e| of each piece; e: (m, P), either sign."""
     half = steps.length / 2
     inner = np.add.reduce((INTEGRALS @ e[zeros.row].T).reshape(2, P + 2, -1) * zeros.basis, axis=1)
@@ -178,7 +181,7 @@ def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: Crossings) -> tuple[
     return half * plain, half * ((steps.begin + half) * plain + half * moment)
 
 
-def _times(steps: Steps, found: Crossings, levels: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _times(steps: Steps, found: LevelCrossings, levels: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Rise time, nan for a load step, and settling time: first and last passages through `levels`.
 
     right: y at the right ends; where the next piece begins it may jump through a level.

@@ -76,7 +76,7 @@ def exact(name: str, text: str) -> Fraction:
     if re.search(r"[^\W\d_]{2}", plain):  # 5 kg/h
         raise InvalidParameter(no_number(name, plain))
     # 1 1/2 may be one and a half, so that blanks have no place here at all
-    if len(bottom) > 1 or " " in top or " " in bottom[0]:
+    if len(bottom) > 1 or " " in top or " " in bottom[0] or not top or not bottom[0]:
         raise InvalidParameter(f"{name} must be one number or one fraction like 11/5 or 3/2, got '{quoted(plain)}'")
     divisor = _scientific(name, bottom[0])
     if not divisor:

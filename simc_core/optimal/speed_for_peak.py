@@ -29,7 +29,7 @@ TRIED = 12  # loops of small Ms that are tried for an answer in the error messag
 At = Callable[[float], NestedLoops]
 
 
-def fastest(at: At, Ms: float, scale: float, name: str, Ms_name: str) -> float:
+def smallest_speed_with_peak(at: At, Ms: float, scale: float, name: str, Ms_name: str) -> float:
     """The smallest tau with `at(tau)` stable and Ms its peak; at(tau) may differ in the outermost controller only.
 
     Raises InvalidParameter where there is none; the message tells the smallest Ms of a stable loop.

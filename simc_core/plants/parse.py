@@ -73,8 +73,8 @@ def _plant(text: str) -> Plant:
     value = _Statements(text).value()
     if value.theta < 0:
         raise ParseError(
-            f"dead time must be >= 0, got {float(value.theta):g}: e^{{+{-float(value.theta):g} s}} is a prediction. "
-            "Write e^{-3s} for a dead time of 3",
+            f"dead time must be >= 0, got {float(value.theta):g}: e^{{+{-float(value.theta):g}s}} would look into "
+            f"the future; a dead time of {-float(value.theta):g} is e^{{-{-float(value.theta):g}s}}",
             text,
             value.at,
         )
@@ -111,7 +111,8 @@ class _Statements:
             self.used |= {"num", "den"}
         for name, part in self.lists.items():
             if name not in self.used:
-                raise self.fault(f"'{quoted(part.name)}' is a list of numbers and is not used: leave it out", part)
+                way_out = "leave it out" if self.functions else "name two lists num and den, or write tf([2], [10 1])"
+                raise self.fault(f"'{quoted(part.name)}' is a list of numbers and is not used: {way_out}", part)
         unused = {name: given for name, given in self.numbers.items() if name not in self.used}
         if not self.functions:
             return from_parameters(self.text, unused)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from simc_core import checks
-from simc_core.algebra.polynomials import factorise
+from simc_core.algebra.polynomials import factorise_exact
 from simc_core.algebra.square_free import square_free
 from simc_core.errors import InvalidParameter
 from simc_core.plants.plant import Plant
@@ -68,9 +68,11 @@ def _time_constants(name: str, polynomial: Polynomial) -> tuple[list[float], lis
     if len(polynomial) == 3 and polynomial[1] ** 2 < 4 * polynomial[2]:
         tau = checks.positive_time("tau", math.sqrt(_float(field, polynomial[2])))
         return [], [(tau, float(polynomial[1] / (2 * Fraction(tau))))]
+    for coefficient in polynomial:
+        _float(field, coefficient)
     parts = square_free(polynomial)
     if len(parts) == 1 and parts[0][1] == 1:
-        factors = factorise(name, [[_float(field, c) for c in reversed(polynomial)]])
+        factors = factorise_exact(name, polynomial)
         return list(factors.times), list(factors.pairs)
     times: list[float] = []
     pairs: list[tuple[float, float]] = []

@@ -142,6 +142,16 @@ class Plant:
         return sum(tau < 0 for tau in self.lags) + 2 * sum(zeta < 0 for _, zeta in self.lag_pairs)
 
     @property
+    def slowest(self) -> float:
+        """Largest time constant, of lags by their size; 0 where there is none."""
+        return max([*map(abs, self.lags), *(tau for tau, _ in self.lag_pairs)], default=0.0)
+
+    @property
+    def total_time(self) -> float:
+        """Dead time and all time constants together: a scale for horizons. 0 where there is none."""
+        return self.theta + sum(map(abs, self.lags)) + sum(tau for tau, _ in self.lag_pairs)
+
+    @property
     def kind(self) -> str:
         """What kind of process it is, in words."""
         words = []
@@ -162,14 +172,13 @@ class Plant:
         return ", ".join(words)
 
     def _self_regulating_kind(self) -> str:
-        slowest = max([*self.lags, *(tau for tau, _ in self.lag_pairs)], default=0.0)
-        if slowest == 0:
+        if self.slowest == 0:
             return "pure dead time" if self.theta else "pure gain"
         if self.theta == 0:
             return "stable, no dead time"
-        if self.theta > slowest:
-            return "stable, delay dominant"
-        return "stable, lag dominant" if slowest >= 4 * self.theta else "stable, balanced"
+        if self.theta > self.slowest:
+            return "stable, dead time dominant"
+        return "stable, lag dominant" if self.slowest >= 4 * self.theta else "stable, lag and dead time alike"
 
 
 def scaled(time: float, ratio: Fraction) -> float:

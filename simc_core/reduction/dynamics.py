@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from simc_core.errors import NotReducible
 from simc_core.notation import latex_number, number, times_s
 from simc_core.plants.plant import Plant
-from simc_core.reduction.records import Share, Step
+from simc_core.reduction.records import BudgetEntry, Step
 
 OSCILLATING = 0.7  # damping below which a pair is not two lags any more
 SAME = 1e-9  # relative; a zero and a lag this close are one factor typed twice
@@ -21,7 +21,7 @@ SAME = 1e-9  # relative; a zero and a lag this close are one factor typed twice
 class Dynamics:
     """Times > 0. inverse: -T of the right-half-plane zeros. unstable: tau > 0 of 1/(tau s - 1), 0 if none.
 
-    pair: (tau0, zeta) of an oscillating pair, None if there is none. cancelled: shares already dealt with.
+    pair: (tau0, zeta) of an oscillating pair, None if there is none. cancelled: entries already dealt with.
     """
 
     k: float
@@ -33,7 +33,7 @@ class Dynamics:
     unstable: float
     pair: tuple[float, float] | None
     steps: tuple[Step, ...]
-    cancelled: tuple[Share, ...]
+    cancelled: tuple[BudgetEntry, ...]
 
 
 def dynamics(plant: Plant) -> Dynamics:
@@ -69,7 +69,7 @@ def dynamics(plant: Plant) -> Dynamics:
 
 
 def _cancelled_pairs(plant: Plant, steps: list[Step]):
-    """Pairs of poles and of zeros without those that are equal and damped, and the shares of these."""
+    """Pairs of poles and of zeros without those that are equal and damped, and the entries of these."""
     pairs, left, cancelled = list(plant.lag_pairs), [], []
     for tau, zeta in plant.lead_pairs:
         same = [p for p in pairs if _same(p[0], tau) and _same(p[1], zeta) and zeta > 0]
@@ -77,7 +77,7 @@ def _cancelled_pairs(plant: Plant, steps: list[Step]):
             left.append((tau, zeta))
             continue
         pairs.remove(same[0])
-        cancelled.append(Share(f"pair {number(tau)}", "pair", tau, (("=", tau),)))
+        cancelled.append(BudgetEntry(f"pair {number(tau)}", "pair", tau, (("=", tau),)))
         text = f"The complex zeros with tau = {number(tau)} cancel the complex poles with the same values."
         steps.append(Step("cancel", text, "", {"tau": tau, "zeta": zeta}))
     return pairs, left, cancelled
@@ -114,7 +114,7 @@ def _split_lead_pair(T: float, zeta: float, steps: list[Step]) -> list[float]:
     return [sign * time for time in _split_pair("zeros", T, abs(zeta), steps)]
 
 
-def _cancelled_lags(lags: list[float], leads: list[float], steps: list[Step], cancelled: list[Share]):
+def _cancelled_lags(lags: list[float], leads: list[float], steps: list[Step], cancelled: list[BudgetEntry]):
     """Lags and leads without the stable ones that are equal."""
     left = []
     for T in leads:
@@ -123,8 +123,8 @@ def _cancelled_lags(lags: list[float], leads: list[float], steps: list[Step], ca
             left.append(T)
             continue
         lags.remove(same[0])
-        cancelled.append(Share(f"lag {number(T)}", "lag", T, (("=", T),)))
-        cancelled.append(Share(f"zero {number(T)}", "lead", T, (("=", T),)))
+        cancelled.append(BudgetEntry(f"lag {number(T)}", "lag", T, (("=", T),)))
+        cancelled.append(BudgetEntry(f"zero {number(T)}", "lead", T, (("=", T),)))
         text = f"The zero {number(T)} and the lag {number(T)} are equal and cancel exactly."
         factor = f"{times_s(latex_number(T))} + 1"
         steps.append(Step("cancel", text, rf"\frac{{{factor}}}{{{factor}}} = 1", {"T0": T, "tau0": T}))

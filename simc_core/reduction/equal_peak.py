@@ -13,7 +13,7 @@ from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import NestedLoops
-from simc_core.optimal.speed_for_peak import FASTEST, fastest
+from simc_core.optimal.speed_for_peak import FASTEST, smallest_speed_with_peak
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
 from simc_core.reduction.records import Orders
@@ -59,7 +59,7 @@ def at_equal_peak(plant: Plant, model: Model, Ms: float = EQUAL_MS) -> EqualPeak
         return NestedLoops((plant,), (simc(model, tau_c),))
 
     try:
-        tau_c = fastest(closed, Ms, scale, "tau_c", "Ms")
+        tau_c = smallest_speed_with_peak(closed, Ms, scale, "tau_c", "Ms")
     except InvalidParameter:
         tau_c = FASTEST * scale
         if not _peak(plant, model, tau_c) <= Ms:

@@ -12,9 +12,9 @@ from simc_core.plants.models import (
     UnstableDelay,
 )
 from simc_core.reduction.dynamics import Dynamics
-from simc_core.reduction.records import LARGEST_MS, Candidate, Orders, Share, Step
-from simc_core.reduction.split import Outcome
-from simc_core.reduction.zeros import Match
+from simc_core.reduction.records import LARGEST_MS, BudgetEntry, Candidate, Orders, Step
+from simc_core.reduction.split import TrialReduction
+from simc_core.reduction.zeros import RuleApplied
 
 NAMES = {"tau1": r"\tau_1", "tau2": r"\tau_2"}
 WHERE = {
@@ -26,19 +26,19 @@ WHERE = {
 }
 
 
-def steps(parts: Dynamics, outcome: Outcome, h: float, candidates: tuple[Candidate, ...]) -> tuple[Step, ...]:
+def steps(parts: Dynamics, trial: TrialReduction, h: float, candidates: tuple[Candidate, ...]) -> tuple[Step, ...]:
     """What was done, in order."""
     chosen = next(candidate for candidate in candidates if candidate.chosen)
     told = [*parts.steps]
-    told += [_match_step(match, chosen.theta) for match in outcome.removal.matches]
-    told += _half_rule_steps(outcome)
-    told.append(_delay_step(parts, outcome, h, chosen.theta))
-    if isinstance(chosen.model, SecondOrderDelay) and _swapped(outcome):
+    told += [_match_step(match, chosen.theta) for match in trial.removal.matches]
+    told += _half_rule_steps(trial)
+    told.append(_delay_step(parts, trial, h, chosen.theta))
+    if isinstance(chosen.model, SecondOrderDelay) and _swapped(trial):
         larger, smaller = chosen.model.tau1, chosen.model.tau2
         text = f"tau2 = {number(larger)} came out larger than tau1 = {number(smaller)}: the two change places."
         told.append(Step("swap", text, r"\tau_1 \leftrightarrow \tau_2", {"tau1": larger, "tau2": smaller}))
-    if not outcome.consistent:
-        text = "No delay is consistent with the rules T1-T3 here (they jump across it); the nearest is taken."
+    if not trial.consistent:
+        text = "No dead time is consistent with the rules T1-T3 here (they jump across it); the nearest is taken."
         told.append(Step("choice", text, rf"\theta \approx {latex_number(chosen.theta)}", {"theta": chosen.theta}))
     if len(candidates) > 1:
         told.append(_choice_step(candidates, chosen))
@@ -46,35 +46,39 @@ def steps(parts: Dynamics, outcome: Outcome, h: float, candidates: tuple[Candida
     return tuple(told)
 
 
-def budget(parts: Dynamics, outcome: Outcome, h: float) -> tuple[Share, ...]:
+def budget(parts: Dynamics, trial: TrialReduction, h: float) -> tuple[BudgetEntry, ...]:
     """What became of every lag, zero and delay of the plant."""
     pieces: dict[int, list[tuple[str, float]]] = {i: [] for i in range(len(parts.lags))}
     origin: list[list[tuple[str, float]]] = [[] for _ in range(parts.integrators)]
-    for match in outcome.removal.matches:
+    for match in trial.removal.matches:
         if match.lag >= 0:
             pieces[match.lag].append((match.rule, match.tau0 - match.rest))
         elif match.lag == -1 and math.isinf(match.tau0):
             next(parts_ for parts_ in origin if not parts_).append((match.rule, math.inf))
-    for index, where, amount in _allocation(outcome):
+    for index, where, amount in _allocation(trial):
         if index >= 0:
             pieces[index].append((where, amount))
-    shares = [Share(f"lag {number(tau)}", "lag", tau, tuple(pieces[i])) for i, tau in enumerate(parts.lags)]
-    shares += [Share("integrator", "integrator", math.inf, tuple(done or [("slope", math.inf)])) for done in origin]
+    entries = [BudgetEntry(f"lag {number(tau)}", "lag", tau, tuple(pieces[i])) for i, tau in enumerate(parts.lags)]
+    entries += [
+        BudgetEntry("integrator", "integrator", math.inf, tuple(done or [("slope", math.inf)])) for done in origin
+    ]
     if parts.unstable:
-        shares.append(
-            Share(f"unstable pole {number(parts.unstable)}", "unstable", parts.unstable, (("a", parts.unstable),))
+        entries.append(
+            BudgetEntry(f"unstable pole {number(parts.unstable)}", "unstable", parts.unstable, (("a", parts.unstable),))
         )
     if parts.pair:
         tau0 = parts.pair[0]
-        shares.append(Share(f"pair {number(tau0)}", "pair", tau0, (("tau0", tau0),)))
-    rule_of = {match.lead: match.rule for match in outcome.removal.matches}
-    shares += [Share(f"zero {number(T)}", "lead", T, ((rule_of[i], T),)) for i, T in enumerate(parts.leads)]
-    shares += [Share(f"inverse zero {number(T)}", "inverse", T, (("theta", T),)) for T in parts.inverse]
+        entries.append(BudgetEntry(f"pair {number(tau0)}", "pair", tau0, (("tau0", tau0),)))
+    rule_of = {match.lead: match.rule for match in trial.removal.matches}
+    entries += [BudgetEntry(f"zero {number(T)}", "lead", T, ((rule_of[i], T),)) for i, T in enumerate(parts.leads)]
+    entries += [BudgetEntry(f"inverse zero {number(T)}", "inverse", T, (("theta", T),)) for T in parts.inverse]
     if parts.theta:
-        shares.append(Share(f"dead time {number(parts.theta)}", "dead time", parts.theta, (("theta", parts.theta),)))
+        entries.append(
+            BudgetEntry(f"dead time {number(parts.theta)}", "dead time", parts.theta, (("theta", parts.theta),))
+        )
     if h:
-        shares.append(Share(f"sampling h/2 = {number(h / 2)}", "sampling", h / 2, (("theta", h / 2),)))
-    return (*shares, *parts.cancelled)
+        entries.append(BudgetEntry(f"sampling h/2 = {number(h / 2)}", "sampling", h / 2, (("theta", h / 2),)))
+    return (*entries, *parts.cancelled)
 
 
 def notes(parts: Dynamics, model: Model, order: int, orders: Orders | None) -> tuple[str, ...]:
@@ -119,11 +123,13 @@ def of_orders(orders: Orders) -> str:
     return f"Derivative action (order 2) {verdict}. {measured}: {numbers}."
 
 
-def _match_step(match: Match, theta: float) -> Step:
+def _match_step(match: RuleApplied, theta: float) -> Step:
     T0, tau0, rest = (times_s(latex_number(value)) for value in (match.T0, match.tau0, match.rest))
     amounts = {"T0": match.T0, "tau0": match.tau0, "theta": theta, "rest": match.rest, "gain": match.gain}
     if match.rule == "1998 small":
-        text = f"1998 rule: the zero {number(match.T0)} is small (not above theta) and is subtracted from the delay."
+        text = (
+            f"1998 rule: the zero {number(match.T0)} is small (not above theta) and is subtracted from the dead time."
+        )
         return Step(match.rule, text, rf"{T0} + 1 \approx e^{{{T0}}}", amounts)
     integrator = math.isinf(match.tau0)
     below = "s" if integrator else f"{tau0} + 1"
@@ -141,14 +147,14 @@ def _match_step(match: Match, theta: float) -> Step:
     return Step(match.rule, text, equation, amounts)
 
 
-def _allocation(outcome: Outcome) -> list[tuple[int, str, float]]:
+def _allocation(trial: TrialReduction) -> list[tuple[int, str, float]]:
     """(index of the lag, where, time) for every lag that the zeros have left."""
-    names, absorber = outcome.shape.kept, outcome.shape.absorber
-    if _swapped(outcome):
+    names, absorber = trial.shape.kept, trial.shape.absorber
+    if _swapped(trial):
         names = names[::-1]
         absorber = "tau1"
     placed = []
-    for i, lag in enumerate(outcome.removal.lags):
+    for i, lag in enumerate(trial.removal.lags):
         tau = lag.tau.at
         if i < len(names):
             placed.append((lag.index, names[i], tau))
@@ -159,15 +165,15 @@ def _allocation(outcome: Outcome) -> list[tuple[int, str, float]]:
     return placed
 
 
-def _swapped(outcome: Outcome) -> bool:
-    lags = [lag.tau.at for lag in outcome.removal.lags]
-    return outcome.shape.kept == ("tau1", "tau2") and len(lags) > 2 and lags[1] + lags[2] / 2 > lags[0]
+def _swapped(trial: TrialReduction) -> bool:
+    lags = [lag.tau.at for lag in trial.removal.lags]
+    return trial.shape.kept == ("tau1", "tau2") and len(lags) > 2 and lags[1] + lags[2] / 2 > lags[0]
 
 
-def _half_rule_steps(outcome: Outcome) -> list[Step]:
+def _half_rule_steps(trial: TrialReduction) -> list[Step]:
     """Which lags are kept, and which one is split."""
-    names, absorber = outcome.shape.kept, outcome.shape.absorber
-    lags = [lag.tau.at for lag in outcome.removal.lags]
+    names, absorber = trial.shape.kept, trial.shape.absorber
+    lags = [lag.tau.at for lag in trial.removal.lags]
     told = []
     for name, tau in zip(names, lags, strict=False):
         text = f"The lag {number(tau)} is kept as {name}."
@@ -187,13 +193,13 @@ def _half_rule_steps(outcome: Outcome) -> list[Step]:
     return told
 
 
-def _delay_step(parts: Dynamics, outcome: Outcome, h: float, theta: float) -> Step:
+def _delay_step(parts: Dynamics, trial: TrialReduction, h: float, theta: float) -> Step:
     """The sum that makes the effective delay."""
     terms = [("dead time", parts.theta)] if parts.theta else []
-    terms += [("lag", amount) for _, where, amount in _allocation(outcome) if where == "theta"]
+    terms += [("lag", amount) for _, where, amount in _allocation(trial) if where == "theta"]
     terms += [("inverse response zero", T) for T in parts.inverse]
     terms += [("h/2", h / 2)] if h else []
-    subtracted = [match.T0 for match in outcome.removal.matches if match.rule == "1998 small"]
+    subtracted = [match.T0 for match in trial.removal.matches if match.rule == "1998 small"]
     total = " + ".join(latex_number(amount) for _, amount in terms) or "0"
     total += "".join(f" - {latex_number(T)}" for T in subtracted)
     if len(terms) + len(subtracted) > 1:
@@ -214,12 +220,12 @@ def _choice_step(candidates: tuple[Candidate, ...], chosen: Candidate) -> Step:
     if math.isfinite(chosen.load_error):
         why = "at Ms = 1.6 around the full plant its SIMC loop has the smallest load error"
     elif chosen.Ms <= LARGEST_MS:
-        why = "it is the smallest delay > 0 whose SIMC loop (tau_c = theta) around the full plant has Ms <= 2"
+        why = "it is the smallest dead time > 0 whose SIMC loop (tau_c = theta) around the full plant has Ms <= 2"
     elif math.isfinite(chosen.Ms):
-        why = "no delay gives a SIMC loop with Ms <= 2 around the full plant; this one has the smallest Ms"
+        why = "no dead time gives a SIMC loop with Ms <= 2 around the full plant; this one has the smallest Ms"
     else:
-        why = "no delay gives a stable SIMC loop around the full plant; this is the most cautious one"
-    text = f"The rules T1-T3 hold for more than one delay: also for {others}. "
+        why = "no dead time gives a stable SIMC loop around the full plant; this is the most cautious one"
+    text = f"The rules T1-T3 hold for more than one effective dead time: also for {others}. "
     text += f"Chosen is theta = {_described(chosen)}: {why}."
     equation = r"\theta \in \{" + ",\\ ".join(latex_number(candidate.theta) for candidate in candidates) + r"\}"
     return Step("choice", text, equation, {"theta": chosen.theta, "Ms": chosen.Ms})

@@ -31,8 +31,8 @@ from simc_core.reduction.dynamics import Dynamics, dynamics
 from simc_core.reduction.equal_peak import at_equal_peak, compare_orders
 from simc_core.reduction.explanation import budget, notes, steps
 from simc_core.reduction.records import LARGEST_MS, Candidate, Reduction
-from simc_core.reduction.split import Outcome, delay_of, model_of, resolved, shape_of
-from simc_core.reduction.zeros import Lag, Line, Walk, remove_leads
+from simc_core.reduction.split import TrialReduction, delay_of, model_of, resolved, shape_of
+from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, remove_leads
 from simc_core.reduction.zeros_1998 import remove_leads_1998
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
@@ -90,7 +90,7 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     if rules not in RULES:
         raise InvalidParameter(f'rules must be "2003" or "1998", got {rules!r}')
     parts = dynamics(plant)
-    candidates, outcome = _reduce(plant, parts, order, h, rules)
+    candidates, trial = _reduce(plant, parts, order, h, rules)
     chosen = next(candidate for candidate in candidates if candidate.chosen)
     other = chosen.model if order == 2 else _chosen(plant, parts, 2, h, rules)
     orders = None
@@ -99,9 +99,9 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
         orders = compare_orders(plant, first, other)
     return Reduction(
         chosen.model,
-        steps(parts, outcome, h, candidates),
+        steps(parts, trial, h, candidates),
         tuple(candidate.model for candidate in candidates if not candidate.chosen),
-        budget(parts, outcome, h),
+        budget(parts, trial, h),
         candidates,
         notes(parts, chosen.model, order, orders),
         orders,
@@ -113,13 +113,15 @@ def _chosen(plant: Plant, parts: Dynamics, order: int, h: float, rules: str) -> 
     return next(candidate.model for candidate in candidates if candidate.chosen)
 
 
-def _reduce(plant: Plant, parts: Dynamics, order: int, h: float, rules: str) -> tuple[tuple[Candidate, ...], Outcome]:
+def _reduce(
+    plant: Plant, parts: Dynamics, order: int, h: float, rules: str
+) -> tuple[tuple[Candidate, ...], TrialReduction]:
     """All candidates, smallest delay first, one of them chosen, and how that one came about."""
     if rules == "1998":
         found = [_at_1998(parts, order, h)]
     else:
         found = _self_consistent(lambda theta: _at(parts, order, h, theta), _longest_delay(parts, h))
-    models = [model_of(parts, outcome) for outcome in found]
+    models = [model_of(parts, trial) for trial in found]
     candidates = _choose(plant, models)
     chosen = next(i for i, candidate in enumerate(candidates) if candidate.chosen)
     return candidates, found[chosen]
@@ -129,39 +131,39 @@ def _longest_delay(parts: Dynamics, h: float) -> float:
     return parts.theta + sum(parts.lags) + sum(parts.inverse) + h / 2
 
 
-def _at(parts: Dynamics, order: int, h: float, theta: float) -> Outcome:
+def _at(parts: Dynamics, order: int, h: float, theta: float) -> TrialReduction:
     """The rules of 2003 with `theta` assumed; the line `theta` of the outcome is what comes out."""
-    walk = Walk(theta)
-    lags = [Lag(i, Line(tau)) for i, tau in enumerate(parts.lags)]
-    removal = remove_leads(list(enumerate(parts.leads)), lags, parts.integrators, walk)
+    comparisons = Comparisons(theta)
+    lags = [Lag(i, LineInTheta(tau)) for i, tau in enumerate(parts.lags)]
+    removal = remove_leads(list(enumerate(parts.leads)), lags, parts.integrators, comparisons)
     shape = shape_of(parts, order, removal.integrators)
-    return Outcome(removal, shape, delay_of(parts, removal.lags, shape, h), tuple(walk.breaks))
+    return TrialReduction(removal, shape, delay_of(parts, removal.lags, shape, h), tuple(comparisons.turning_points))
 
 
-def _at_1998(parts: Dynamics, order: int, h: float) -> Outcome:
+def _at_1998(parts: Dynamics, order: int, h: float) -> TrialReduction:
     """The rules of 1998; nothing in them depends on theta."""
 
     def delay(lags: list[Lag], integrators: int) -> float:
         return delay_of(parts, lags, shape_of(parts, order, integrators), h).at
 
-    lags = [Lag(i, Line(tau)) for i, tau in enumerate(parts.lags)]
+    lags = [Lag(i, LineInTheta(tau)) for i, tau in enumerate(parts.lags)]
     removal = remove_leads_1998(list(enumerate(parts.leads)), lags, parts.integrators, delay)
     shape = shape_of(parts, order, removal.integrators)
     theta = delay_of(parts, removal.lags, shape, h).at - removal.subtracted
-    return Outcome(removal, shape, Line(theta), ())
+    return TrialReduction(removal, shape, LineInTheta(theta), ())
 
 
-def _self_consistent(at: Callable[[float], Outcome], longest: float) -> list[Outcome]:
+def _self_consistent(at: Callable[[float], TrialReduction], longest: float) -> list[TrialReduction]:
     """Outcomes whose delay is the one assumed, smallest first; where there is none, the nearest."""
     proposed: set[float] = set()
-    probed: list[tuple[float, Outcome]] = []
+    probed: list[tuple[float, TrialReduction]] = []
 
-    def probe(theta: float) -> Outcome:
-        outcome = at(theta)
-        probed.append((theta, outcome))
-        if not outcome.theta.slope:
-            proposed.add(outcome.theta.at)
-        return outcome
+    def probe(theta: float) -> TrialReduction:
+        trial = at(theta)
+        probed.append((theta, trial))
+        if not trial.theta.slope:
+            proposed.add(trial.theta.at)
+        return trial
 
     intervals = deque([(0.0, longest)])
     probe(0.0)
@@ -170,32 +172,32 @@ def _self_consistent(at: Callable[[float], Outcome], longest: float) -> list[Out
         if high - low <= SAME * longest:
             continue
         theta = low + INSIDE * (high - low)
-        breaks = probe(theta).breaks
-        below = max((b for b in breaks if low < b < theta), default=low)
-        above = min((b for b in breaks if theta < b < high), default=high)
+        turning_points = probe(theta).turning_points
+        below = max((b for b in turning_points if low < b < theta), default=low)
+        above = min((b for b in turning_points if theta < b < high), default=high)
         if below > low:
             probe(below)
             intervals.append((low, below))
         if above < high:
             probe(above)
             intervals.append((above, high))
-    found: list[Outcome] = []
+    found: list[TrialReduction] = []
     for theta in sorted(value for value in proposed if 0 <= value <= longest * (1 + SAME)):
-        outcome = at(theta)
-        value = outcome.theta(theta)
+        trial = at(theta)
+        value = trial.theta(theta)
         if abs(value - theta) <= SAME * longest and not any(_same(value, other, longest) for other in found):
-            found.append(resolved(outcome, theta))
+            found.append(resolved(trial, theta))
     return found or [_nearest(probed)]
 
 
-def _same(theta: float, other: Outcome, longest: float) -> bool:
+def _same(theta: float, other: TrialReduction, longest: float) -> bool:
     return abs(theta - other.theta.at) <= 2 * SAME * longest
 
 
-def _nearest(probed: list[tuple[float, Outcome]]) -> Outcome:
+def _nearest(probed: list[tuple[float, TrialReduction]]) -> TrialReduction:
     """Where theta_out jumps across theta there is no fixed point (2 of 12000 random plants): the closest probe."""
-    theta, outcome = min(probed, key=lambda item: abs(item[1].theta(item[0]) - item[0]))
-    return replace(resolved(outcome, theta), consistent=False)
+    theta, trial = min(probed, key=lambda item: abs(item[1].theta(item[0]) - item[0]))
+    return replace(resolved(trial, theta), consistent=False)
 
 
 def _choose(plant: Plant, models: list[Model]) -> tuple[Candidate, ...]:

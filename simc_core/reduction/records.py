@@ -24,7 +24,7 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Share:
+class BudgetEntry:
     """What became of one lag, zero or delay of the plant.
 
     label: e.g. "lag 6".   kind: "lag", "pair", "lead", "inverse", "dead time", "sampling", "integrator", "unstable".
@@ -84,7 +84,8 @@ class Reduction:
     """Result of the half rule.
 
     model: the reduced model.   steps: what was done, in order.   alternatives: the other self-consistent models.
-    budget: one Share per time constant.   candidates: all self-consistent delays, smallest first.   notes: advice.
+    budget: one BudgetEntry per time constant.   candidates: all self-consistent delays, smallest first.
+    notes: advice.
     orders: what order 1 and order 2 are worth; None where the model has one form whatever the order, or an unstable
     pole.
     """
@@ -92,7 +93,7 @@ class Reduction:
     model: Model
     steps: tuple[Step, ...]
     alternatives: tuple[Model, ...]
-    budget: tuple[Share, ...]
+    budget: tuple[BudgetEntry, ...]
     candidates: tuple[Candidate, ...]
     notes: tuple[str, ...]
     orders: Orders | None

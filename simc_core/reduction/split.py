@@ -17,7 +17,7 @@ from simc_core.plants.models import (
     UnstableDelay,
 )
 from simc_core.reduction.dynamics import Dynamics
-from simc_core.reduction.zeros import Lag, Line, Removal
+from simc_core.reduction.zeros import Lag, LineInTheta, Removal
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,16 +29,16 @@ class Shape:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
-    """The half rule carried out at one assumed theta; lines are valid until the nearest of `breaks`.
+class TrialReduction:
+    """The half rule carried out at one assumed theta; lines are valid until the nearest of `turning_points`.
 
     consistent: the delay that comes out is the one assumed.
     """
 
     removal: Removal
     shape: Shape
-    theta: Line
-    breaks: tuple[float, ...]
+    theta: LineInTheta
+    turning_points: tuple[float, ...]
     consistent: bool = True
 
 
@@ -53,36 +53,36 @@ def shape_of(parts: Dynamics, order: int, integrators: int) -> Shape:
     return Shape(("tau1", "tau2"), "tau2") if order == 2 else Shape(("tau1",), "tau1")
 
 
-def delay_of(parts: Dynamics, lags: Iterable[Lag], shape: Shape, h: float) -> Line:
+def delay_of(parts: Dynamics, lags: Iterable[Lag], shape: Shape, h: float) -> LineInTheta:
     """Effective delay of the half rule for `lags`, largest first."""
     rest = [lag.tau for lag in list(lags)[len(shape.kept) :]]
     weights = [0.5 if shape.absorber and i == 0 else 1.0 for i in range(len(rest))]
-    return Line(
+    return LineInTheta(
         math.fsum([parts.theta, *parts.inverse, h / 2, *(w * line.at for w, line in zip(weights, rest, strict=True))]),
         math.fsum(w * line.slope for w, line in zip(weights, rest, strict=True)),
     )
 
 
-def resolved(outcome: Outcome, theta: float) -> Outcome:
-    """The outcome with its lines replaced by their values at theta."""
-    lags = tuple(replace(lag, tau=Line(lag.tau(theta))) for lag in outcome.removal.lags)
-    return Outcome(replace(outcome.removal, lags=lags), outcome.shape, Line(outcome.theta(theta)), ())
+def resolved(trial: TrialReduction, theta: float) -> TrialReduction:
+    """The trial with its lines replaced by their values at theta."""
+    lags = tuple(replace(lag, tau=LineInTheta(lag.tau(theta))) for lag in trial.removal.lags)
+    return TrialReduction(replace(trial.removal, lags=lags), trial.shape, LineInTheta(trial.theta(theta)), ())
 
 
-def model_of(parts: Dynamics, outcome: Outcome) -> Model:
-    """The reduced model of a resolved outcome."""
-    k, theta = parts.k * outcome.removal.gain, _tidy(outcome.theta.at, parts)
-    lags = [lag.tau.at for lag in outcome.removal.lags]
-    kept = lags[: len(outcome.shape.kept)] + [0.0] * (len(outcome.shape.kept) - len(lags))
+def model_of(parts: Dynamics, trial: TrialReduction) -> Model:
+    """The reduced model of a resolved trial."""
+    k, theta = parts.k * trial.removal.gain, _tidy(trial.theta.at, parts)
+    lags = [lag.tau.at for lag in trial.removal.lags]
+    kept = lags[: len(trial.shape.kept)] + [0.0] * (len(trial.shape.kept) - len(lags))
     if kept and len(lags) > len(kept):
         kept[-1] += lags[len(kept)] / 2
     if parts.pair:
         return OscillatingDelay(k, theta, *parts.pair)
     if parts.unstable:
         return UnstableDelay(-k / parts.unstable, theta, 1 / parts.unstable, *kept)
-    if outcome.removal.integrators == 2:
+    if trial.removal.integrators == 2:
         return DoubleIntegratingDelay(k, theta)
-    if outcome.removal.integrators:
+    if trial.removal.integrators:
         return IntegratingDelay(k, theta, *kept)
     if len(kept) == 2 and kept[0]:
         return SecondOrderDelay(k, theta, max(kept), min(kept))

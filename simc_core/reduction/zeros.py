@@ -29,7 +29,7 @@ GUARD = 1e-9  # relative; 0.08/0.05 is 1.6 on paper and 1.5999999999999999 in do
 T2_LIMIT = 5.0  # T2 from T0 = 5 theta on
 
 
-class Line(NamedTuple):
+class LineInTheta(NamedTuple):
     """at + slope theta."""
 
     at: float
@@ -44,11 +44,11 @@ class Lag:
     """A lag on its way through the rules. index: which lag it was (Dynamics.lags); -1 for an integrator."""
 
     index: int
-    tau: Line
+    tau: LineInTheta
 
 
 @dataclass(frozen=True, slots=True)
-class Match:
+class RuleApplied:
     """One application of a rule: which zero, which lag (value tau0 at that moment), what is left of it."""
 
     rule: str
@@ -61,33 +61,33 @@ class Match:
 
 
 @dataclass(slots=True)
-class Walk:
+class Comparisons:
     """Comparisons at one theta, and the values of theta at which one of them changes."""
 
     theta: float
-    breaks: list[float] = field(default_factory=list)
+    turning_points: list[float] = field(default_factory=list)
 
-    def at_least(self, a: Line, b: Line) -> bool:
+    def at_least(self, a: LineInTheta, b: LineInTheta) -> bool:
         """a >= b at this theta, equality within the guard included."""
         slope = a.slope - b.slope
         if slope:
-            self.breaks.append((b.at - a.at) / slope)
+            self.turning_points.append((b.at - a.at) / slope)
         left, right = a(self.theta), b(self.theta)
         return left >= right or math.isclose(left, right, rel_tol=GUARD)
 
-    def closer(self, T0: float, below: Line, above: Line) -> bool:
+    def closer(self, T0: float, below: LineInTheta, above: LineInTheta) -> bool:
         """T0/below < above/T0 and T0/below < 1.6."""
         for other in (below, above):
             if other.slope:
-                self.breaks += _crossings(below, above, T0 * T0)
+                self.turning_points += _crossings(below, above, T0 * T0)
                 break
         if below.slope:
-            self.breaks.append((T0 / CLOSE - below.at) / below.slope)
+            self.turning_points.append((T0 / CLOSE - below.at) / below.slope)
         ratio = T0 / below(self.theta)
         return ratio < above(self.theta) / T0 * (1 - GUARD) and ratio < CLOSE * (1 - GUARD)
 
 
-def _crossings(a: Line, b: Line, level: float) -> list[float]:
+def _crossings(a: LineInTheta, b: LineInTheta, level: float) -> list[float]:
     """theta with a(theta) b(theta) = level."""
     if math.isinf(a.at) or math.isinf(b.at):
         return []
@@ -102,7 +102,7 @@ def _crossings(a: Line, b: Line, level: float) -> list[float]:
 
 @dataclass(frozen=True, slots=True)
 class Removal:
-    """Outcome of the rules at one theta: lags left, sorted, largest first (integrators not among them).
+    """What the rules make at one theta: lags left, sorted, largest first (integrators not among them).
 
     subtracted: what the rules of 1998 take off the delay.
     """
@@ -110,19 +110,21 @@ class Removal:
     lags: tuple[Lag, ...]
     integrators: int
     gain: float
-    matches: tuple[Match, ...]
+    matches: tuple[RuleApplied, ...]
     subtracted: float = 0.0
 
 
-def remove_leads(leads: list[tuple[int, float]], lags: list[Lag], integrators: int, walk: Walk) -> Removal:
-    """Step A of the half rule at walk.theta: all positive numerator time constants, largest first.
+def remove_leads(
+    leads: list[tuple[int, float]], lags: list[Lag], integrators: int, comparisons: Comparisons
+) -> Removal:
+    """Step A of the half rule at comparisons.theta: all positive numerator time constants, largest first.
 
     leads: (index in the plant, T0). Raises NotReducible where a zero meets neither a lag nor an integrator.
     """
     lags, matches, gain = list(lags), [], 1.0
     for index, T0 in sorted(leads, key=lambda lead: -lead[1]):
-        lag, smaller = _partner(T0, lags, integrators, walk)
-        match, rest = (_smaller if smaller else _larger)(index, T0, lag, walk)
+        lag, smaller = _partner(T0, lags, integrators, comparisons)
+        match, rest = (_smaller if smaller else _larger)(index, T0, lag, comparisons)
         matches.append(match)
         gain *= match.gain
         if math.isinf(lag.tau.at):
@@ -131,57 +133,57 @@ def remove_leads(leads: list[tuple[int, float]], lags: list[Lag], integrators: i
             lags.remove(lag)
         if rest is not None:
             lags.append(replace(lag, tau=rest))
-    return Removal(tuple(sorted_lags(lags, walk)), integrators, gain, tuple(matches))
+    return Removal(tuple(sorted_lags(lags, comparisons)), integrators, gain, tuple(matches))
 
 
-def sorted_lags(lags: list[Lag], walk: Walk) -> list[Lag]:
+def sorted_lags(lags: list[Lag], comparisons: Comparisons) -> list[Lag]:
     """Largest first; every pair that could change places is noted."""
     for moving in lags:
         if moving.tau.slope:
             for other in lags:
-                walk.at_least(moving.tau, other.tau)
-    return sorted(lags, key=lambda lag: -lag.tau(walk.theta))
+                comparisons.at_least(moving.tau, other.tau)
+    return sorted(lags, key=lambda lag: -lag.tau(comparisons.theta))
 
 
-def _partner(T0: float, lags: list[Lag], integrators: int, walk: Walk) -> tuple[Lag, bool]:
+def _partner(T0: float, lags: list[Lag], integrators: int, comparisons: Comparisons) -> tuple[Lag, bool]:
     """The lag that a zero T0 meets, and whether it is the smaller one."""
-    ordered = sorted_lags(lags, walk)
-    zero = Line(T0)
+    ordered = sorted_lags(lags, comparisons)
+    zero = LineInTheta(T0)
     above, below = [], []
     for lag in ordered:
-        (above if walk.at_least(lag.tau, zero) else below).append(lag)
+        (above if comparisons.at_least(lag.tau, zero) else below).append(lag)
     if integrators and not above:
-        above = [Lag(-1, Line(math.inf))]
+        above = [Lag(-1, LineInTheta(math.inf))]
     if not above and not below:
         raise no_lag(T0)
     if not above:
         return below[0], True
-    if below and walk.closer(T0, below[0].tau, above[-1].tau):
+    if below and comparisons.closer(T0, below[0].tau, above[-1].tau):
         return below[0], True
     return above[-1], False
 
 
-def _larger(index: int, T0: float, lag: Lag, walk: Walk) -> tuple[Match, Line | None]:
+def _larger(index: int, T0: float, lag: Lag, comparisons: Comparisons) -> tuple[RuleApplied, LineInTheta | None]:
     """T2 or T3. Behind an integrator the gain is that of 1/s itself: T0, or 5 theta."""
-    tau0, five = lag.tau(walk.theta), Line(0.0, T2_LIMIT)
+    tau0, five = lag.tau(comparisons.theta), LineInTheta(0.0, T2_LIMIT)
     scale = 1.0 if math.isinf(tau0) else tau0
-    if walk.at_least(Line(T0), five):
-        return Match("T2", index, T0, lag.index, tau0, 0.0, T0 / scale), None
-    t = five if walk.at_least(lag.tau, five) else lag.tau
-    rest = Line(t.at - T0, t.slope)
-    if rest(walk.theta) <= GUARD * T0:
-        return Match("T3", index, T0, lag.index, tau0, 0.0, t(walk.theta) / scale), None
-    return Match("T3", index, T0, lag.index, tau0, rest(walk.theta), t(walk.theta) / scale), rest
+    if comparisons.at_least(LineInTheta(T0), five):
+        return RuleApplied("T2", index, T0, lag.index, tau0, 0.0, T0 / scale), None
+    t = five if comparisons.at_least(lag.tau, five) else lag.tau
+    rest = LineInTheta(t.at - T0, t.slope)
+    if rest(comparisons.theta) <= GUARD * T0:
+        return RuleApplied("T3", index, T0, lag.index, tau0, 0.0, t(comparisons.theta) / scale), None
+    return RuleApplied("T3", index, T0, lag.index, tau0, rest(comparisons.theta), t(comparisons.theta) / scale), rest
 
 
-def _smaller(index: int, T0: float, lag: Lag, walk: Walk) -> tuple[Match, None]:
+def _smaller(index: int, T0: float, lag: Lag, comparisons: Comparisons) -> tuple[RuleApplied, None]:
     """T1, T1a or T1b."""
-    theta, tau0 = Line(0.0, 1.0), lag.tau(walk.theta)
-    if walk.at_least(lag.tau, theta):
-        return Match("T1", index, T0, lag.index, tau0, 0.0, T0 / tau0), None
-    if walk.at_least(Line(T0), theta):
-        return Match("T1a", index, T0, lag.index, tau0, 0.0, T0 / walk.theta), None
-    return Match("T1b", index, T0, lag.index, tau0, 0.0, 1.0), None
+    theta, tau0 = LineInTheta(0.0, 1.0), lag.tau(comparisons.theta)
+    if comparisons.at_least(lag.tau, theta):
+        return RuleApplied("T1", index, T0, lag.index, tau0, 0.0, T0 / tau0), None
+    if comparisons.at_least(LineInTheta(T0), theta):
+        return RuleApplied("T1a", index, T0, lag.index, tau0, 0.0, T0 / comparisons.theta), None
+    return RuleApplied("T1b", index, T0, lag.index, tau0, 0.0, 1.0), None
 
 
 def no_lag(T0: float) -> NotReducible:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from simc_core.reduction.zeros import Lag, Line, Match, Removal, no_lag
+from simc_core.reduction.zeros import Lag, LineInTheta, Removal, RuleApplied, no_lag
 
 NO_LAG = -2  # a zero that met no lag but the delay
 
@@ -24,19 +24,19 @@ def remove_leads_1998(
         above = [lag for lag in lags if lag.tau.at >= T0]
         if delay(lags, integrators) - subtracted >= T0:
             subtracted += T0
-            matches.append(Match("1998 small", index, T0, NO_LAG, 0.0, 0.0, 1.0))
+            matches.append(RuleApplied("1998 small", index, T0, NO_LAG, 0.0, 0.0, 1.0))
         elif above:
             lag = above[-1]
             rest = lag.tau.at - T0
-            matches.append(Match("1998 large", index, T0, lag.index, lag.tau.at, rest, 1.0))
-            lags[lags.index(lag)] = replace(lag, tau=Line(rest))
+            matches.append(RuleApplied("1998 large", index, T0, lag.index, lag.tau.at, rest, 1.0))
+            lags[lags.index(lag)] = replace(lag, tau=LineInTheta(rest))
         elif integrators:
             integrators -= 1
-            matches.append(Match("1998 cancel", index, T0, -1, math.inf, 0.0, T0))
+            matches.append(RuleApplied("1998 cancel", index, T0, -1, math.inf, 0.0, T0))
             gain *= T0
         elif lags:
             lag = lags.pop(0)
-            matches.append(Match("1998 cancel", index, T0, lag.index, lag.tau.at, 0.0, T0 / lag.tau.at))
+            matches.append(RuleApplied("1998 cancel", index, T0, lag.index, lag.tau.at, 0.0, T0 / lag.tau.at))
             gain *= T0 / lag.tau.at
         else:
             raise no_lag(T0)

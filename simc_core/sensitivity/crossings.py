@@ -23,7 +23,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.sensitivity.log_response import LARGEST, FactoredResponse, Response, Together, sensitivities
+from simc_core.sensitivity.log_response import LARGEST, FactoredResponse, Response, ResponseBatch, sensitivities
 from simc_core.sensitivity.search_grid import Evaluate, Grid, sampled, search_grid
 
 TOGETHER = 32  # loops; more do not fit the cache
@@ -72,7 +72,7 @@ def search_many(responses: Sequence[FactoredResponse]) -> list[Crossings]:
         for start in range(0, len(members), TOGETHER):
             some = members[start : start + TOGETHER]
             chosen = [responses[i] for i in some]
-            found |= zip(some, _search(chosen, Together(chosen).log_derivatives), strict=True)
+            found |= zip(some, _search(chosen, ResponseBatch(chosen).log_derivatives), strict=True)
     return [found[i] for i in range(len(responses))]
 
 

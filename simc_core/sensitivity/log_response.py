@@ -72,15 +72,15 @@ class FactoredResponse:
         self.log_leading = complex(size, -math.pi if leading < 0 else 0.0)
 
     @cached_property
-    def _alone(self) -> "Together":
-        return Together([self])
+    def _alone(self) -> "ResponseBatch":
+        return ResponseBatch([self])
 
     def log_derivatives(self, omega: np.ndarray) -> Logs:
         """See Response."""
         return self._alone.log_derivatives(omega)
 
 
-class Together:
+class ResponseBatch:
     """Several FactoredResponses with as many zeros and as many poles each, evaluated together."""
 
     def __init__(self, responses: Sequence[FactoredResponse]):

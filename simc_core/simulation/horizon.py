@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from simc_core.certificate.poles import dominant_poles
+from simc_core.certificate.verdict import stability
 from simc_core.errors import SimcError
 from simc_core.loops.loop import Loop
 from simc_core.simulation.scenario import Scenario
@@ -31,12 +32,11 @@ def times(loop: Loop, scenario: Scenario) -> tuple[float, float]:
 
 def settling_horizon(loop: Loop) -> float:
     """A round time in which the slowest closed-loop mode settles to 1 %; of an unstable loop, shows what grows."""
-    scale = loop.plant.theta + sum(map(abs, loop.plant.lags)) + sum(tau for tau, _ in loop.plant.lag_pairs)
-    form = loop.controller.to_parallel()
+    scale, form = loop.plant.total_time, loop.controller.to_parallel()
     scale += abs(form.Kp / form.Ki) if form.Ki else 0.0
     scale = scale or 1.0
     try:
-        rates = np.array([pole.s.real for pole in dominant_poles(loop)])
+        rates = np.array([*[pole.s.real for pole in dominant_poles(loop)], *_line(loop)])
     except SimcError:
         rates = np.zeros(0)
     growing, falling = rates[rates > 0], -rates[rates < 0]
@@ -47,6 +47,12 @@ def settling_horizon(loop: Loop) -> float:
     else:
         time = 10 * scale
     return round_up(min(max(time, 3 * loop.plant.theta, scale * 1e-6), LONGEST * scale))
+
+
+def _line(loop: Loop) -> list[float]:
+    """Real part that the countless poles of a neutral loop approach, where they grow."""
+    neutral = stability(loop).neutral if loop.plant.theta else 0.0
+    return [math.log(neutral) / loop.plant.theta] if neutral > 1 else []
 
 
 def round_up(time: float) -> float:

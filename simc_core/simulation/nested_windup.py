@@ -8,24 +8,22 @@ The linear loops of network.py, with what the limits take away as one more input
     "both"    and xi_i' += (e/K_1)/T_i outside   the set point that the inner loop could have followed is r_2 + e/K_1;
                                                  the outer controller is led back to it, and takes over without a bump
 
-K_1 is the proportional gain of the inner controller, T = sqrt(tau_I tau_D), tau_I for PI. Steps are of second order:
+K_1 is the proportional gain of the inner controller, T as in controllers/tracking.py. Steps are of second order:
 the linear part exact for signals that run linearly over a step, e by predictor and corrector.
 """
 
-import math
-
 import numpy as np
 
+from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
-from simc_core.simulation.actuator.actuation import usual_tracking_time
-from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.actuator.actuation import rest_within
+from simc_core.simulation.actuator.one_step import ON_GRID, Linear, whole_steps
 from simc_core.simulation.rise import risen
 from simc_core.simulation.several_delays.network import Network, integral_states, network
 from simc_core.simulation.simulate_nested import NestedResponse, horizon
 
 STEPS, MOST_STEPS = 3000, 40_000
-ON_GRID = 1e-6  # of a step
 PROTECTIONS = ("none", "inner", "both")
 
 
@@ -44,8 +42,7 @@ def limited(
     Raises InvalidParameter: limits that do not enclose 0, unknown protection, a dead time too short for MOST_STEPS, an
     innermost block without dead time that starts with a jump.
     """
-    if not u_min <= 0 <= u_max or u_min == u_max:
-        raise InvalidParameter(f"u_min <= 0 <= u_max must hold, the state of rest, got {u_min:g} and {u_max:g}")
+    rest_within(u_min, u_max)
     if protection not in PROTECTIONS:
         raise InvalidParameter(f"protection must be one of {', '.join(PROTECTIONS)}, got {protection[:20]}")
     loops = loop.nested if isinstance(loop, CascadeLoop) else loop
@@ -76,7 +73,7 @@ def _step(system: Network, t_end: float) -> float:
     shortest = float(np.min(system.theta))
     if t_end / shortest > MOST_STEPS:
         raise InvalidParameter(f"t_end must be at most {MOST_STEPS} theta = {MOST_STEPS * shortest:g}, got {t_end:g}")
-    return shortest / math.ceil(STEPS * shortest / t_end)
+    return shortest / whole_steps(STEPS * shortest / t_end)
 
 
 def _tracking(loops: NestedLoops, n: int, protection: str) -> np.ndarray:
@@ -85,16 +82,17 @@ def _tracking(loops: NestedLoops, n: int, protection: str) -> np.ndarray:
     if protection == "none":
         return column
     integrals = integral_states(loops)
-    gain, innermost, controlled = 1.0, True, 1.0
+    gain, innermost, k, integrators = 1.0, True, 1.0, 0
     for block, controller, state in zip(loops.blocks, loops.controllers, integrals, strict=True):
-        controlled *= block.k  # of all blocks since the last controller: the loops inside follow their set points
+        k *= block.k  # of all blocks since the last controller: the loops inside follow their set points
+        integrators += block.integrators
         if controller is None:
             continue
-        form, time = controller.to_parallel(), usual_tracking_time(controller, controlled)
+        form, time = controller.to_parallel(), tracking_time(controller, k, integrators)
         if state is not None and (innermost or protection == "both"):
             column[state] = 1 / (gain * time)
         gain *= form.Kp or form.Ki * time
-        innermost, controlled = False, 1.0
+        innermost, k, integrators = False, 1.0, 0
     return column
 
 

@@ -1,16 +1,15 @@
 """What is asked of a simulation, and what comes back."""
 
-import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from simc_core import checks
-from simc_core.errors import InvalidParameter
+from simc_core.errors import InvalidParameter, WrongType
 from simc_core.simulation.actuator.actuation import Actuation
 
 MOST_POINTS = 100_000
-ACTUATION = ("u_min", "u_max", "tracking_time", "noise", "seed", "h")
+LINEAR = Actuation()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,8 +22,7 @@ class Scenario:
     disturbance_time, t_end: None for half the horizon, and a horizon in which the
     slowest mode of the loop settles to 1 %.   points: instants on the grid; at a jump both limits are added.
     t: explicit increasing instants, returned exactly as given, right-hand limits at jumps.
-    u_min, u_max, tracking_time, noise, seed, h: see Actuation; by default the loop is linear.
-    actuation: these together, what stands between controller and plant.
+    actuation: limits, noise and sampling between controller and plant; by default the loop is linear.
     """
 
     setpoint: float = 1.0
@@ -33,17 +31,11 @@ class Scenario:
     t_end: float | None = None
     points: int = 600
     t: np.ndarray | None = None
-    u_min: float = -math.inf
-    u_max: float = math.inf
-    tracking_time: float | None = None
-    noise: float = 0.0
-    seed: int = 0
-    h: float = 0.0
     disturbance2: float = 1.0
     disturbance2_time: float | None = None
     setpoint_ramp: float = 0.0
     disturbance_ramp: float = 0.0
-    actuation: Actuation = field(init=False, repr=False)
+    actuation: Actuation = LINEAR
 
     def __post_init__(self):
         put = object.__setattr__
@@ -59,9 +51,8 @@ class Scenario:
         put(self, "points", checks.whole("points", self.points, 2, MOST_POINTS))
         if self.t is not None:
             put(self, "t", instants(self.t))
-        put(self, "actuation", Actuation(*[getattr(self, name) for name in ACTUATION]))  # which checks them
-        for name in ACTUATION:
-            put(self, name, getattr(self.actuation, name))
+        if not isinstance(self.actuation, Actuation):
+            raise WrongType(f"actuation must be an Actuation, got {type(self.actuation).__name__}")
 
 
 @dataclass(frozen=True, slots=True, eq=False)

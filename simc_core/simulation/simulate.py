@@ -12,7 +12,7 @@ from simc_core.simulation.actuator.continuous import actuated
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import times
 from simc_core.simulation.one_delay.march import march
-from simc_core.simulation.one_delay.unit_responses import Course
+from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.scenario import Scenario, TimeResponse
 from simc_core.simulation.simulate_nested import NestedResponse, simulate_nested
 from simc_core.simulation.superposition import doubled, superposed
@@ -73,7 +73,7 @@ def _single(loop: Loop, scenario: Scenario) -> TimeResponse:
 
 
 @lru_cache(maxsize=32)  # one design is simulated and measured, and both begin here
-def settled(loop: Loop) -> Course:
+def settled(loop: Loop) -> UnitResponses:
     """Unit step responses of a stable loop, to their rest."""
     return march(loop.plant, [loop.controller.to_parallel()], None)
 

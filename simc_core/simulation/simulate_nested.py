@@ -69,7 +69,7 @@ def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
     """simulate of nested loops. Raises InvalidParameter."""
     if not scenario.actuation.linear:
         raise InvalidParameter(
-            "u_min, u_max, noise and h must be left out for nested loops, whose limits are in simulation/windup.py, "
+            "actuation must be left out for nested loops, whose limits are in simulation/nested_windup.py, "
             f"got {scenario.actuation}"
         )
     if scenario.setpoint_ramp or scenario.disturbance_ramp:
@@ -88,7 +88,7 @@ def time_scale(loop: NestedLoops) -> float:
     """All times of blocks and controllers together."""
     total = 0.0
     for block, controller in zip(loop.blocks, loop.controllers, strict=True):
-        total += block.theta + sum(map(abs, block.lags)) + sum(tau for tau, _ in block.lag_pairs)
+        total += block.total_time
         form = controller.to_parallel() if controller else None
         total += abs(form.Kp / form.Ki) if form and form.Ki else 0.0
     return total or 1.0

@@ -14,11 +14,11 @@ INSIDE = 1 - 1e-9  # a step proposed ends just within the limit
 SMALL = 0.05  # of tau_c + theta: half a sampling period below it changes little
 
 
-def out_of_reach(plant: Plant, scenario: Scenario) -> tuple[Advice, ...]:
+def out_of_reach(plant: Plant, scenario: Scenario, u: str = "u", now: float = 0.0) -> tuple[Advice, ...]:
     """Steps of r and d that need a constant u beyond the limits: y never comes to its set point.
 
     At rest y = k (u + d), so u = r/k before the load step and r/k - d after it; k is infinite with an integrator.
-    The change is one of the heights, "r" or "d".
+    The change is one of the heights, "r" or "d".   u, now: what the input is called, and where it is at rest, in words.
     """
     low, high = scenario.actuation.u_min, scenario.actuation.u_max
     per_r = 0.0 if plant.integrators else 1 / plant.k
@@ -27,16 +27,18 @@ def out_of_reach(plant: Plant, scenario: Scenario) -> tuple[Advice, ...]:
     if not low <= before <= high:
         limit = high if before > high else low
         change = {"r": INSIDE * limit / per_r}
-        text = f"The set point needs u = {number(before, 3)}, the limit is {number(limit, 3)}: it is never reached."
-        remedy = f"Ask for {number(change['r'], 3)} at most, or allow more u."
+        needed, allowed = number(before + now, 3), number(limit + now, 3)
+        text = f"r = {number(scenario.setpoint, 3)} needs {u} = {needed}, the limit is {allowed}: it is never reached."
+        remedy = f"Ask for {number(change['r'], 3)} at most, or allow more {u}."
         found.append(Advice("warning", "r", text, scenario.setpoint, change["r"], limit * per_r < 0, remedy, change))
         before = INSIDE * limit
     after = before - scenario.disturbance
     if not low <= after <= high:
         limit = high if after > high else low
         change = {"d": before - INSIDE * limit}
-        text = f"With the load, u = {number(after, 3)} is needed, the limit is {number(limit, 3)}: the error stays."
-        remedy = f"Expect a load of {number(change['d'], 3)} at most, or allow more u."
+        needed, allowed = number(after + now, 3), number(limit + now, 3)
+        text = f"With the load, {u} = {needed} is needed, the limit is {allowed}: the error stays."
+        remedy = f"Expect a load of {number(change['d'], 3)} at most, or allow more {u}."
         below = change["d"] < 0
         found.append(Advice("warning", "d", text, scenario.disturbance, change["d"], below, remedy, change))
     return tuple(found)

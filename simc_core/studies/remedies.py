@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from simc_core.errors import SimcError
-from simc_core.notation import number
+from simc_core.notation import number, rounded_up
 from simc_core.plants.models import UnstableDelay
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.tuned import Tuned
@@ -42,19 +42,13 @@ def filter_that_costs_little(of: Tuned) -> tuple[Change, float]:
     return change, Ms
 
 
-def three_digits_up(value: float) -> float:
-    """`value` to three significant digits, not below it."""
-    unit = 10.0 ** (math.floor(math.log10(value)) - 2)
-    return float(f"{math.ceil(value / unit * (1 - 1e-12)) * unit:.3g}")
-
-
 def _trials(of: Tuned) -> Iterator[tuple[Change, float]]:
     """Changes in the order in which they are proposed, with Ms of a stable loop."""
     if not isinstance(of.model, UnstableDelay):
         if of.tau_c < of.model.theta:
             yield from _judged(of, TIGHT)
         for factor in SLOWER:
-            yield from _judged(of, {"tau_c": three_digits_up(factor * max(of.tau_c, of.model.theta))})
+            yield from _judged(of, {"tau_c": rounded_up(factor * max(of.tau_c, of.model.theta))})
     other = 3 - of.order
     orders = of.reduction.orders
     if orders is None or orders.second_pays == (other == 2):  # never against what is said about the orders

@@ -1,18 +1,18 @@
 """Many values of tau_c at once: everything the tuning page shows, as arrays of shape (len(tau_c), ...).
 
-All tunings of a plant share what the plant does: in time (simulation/march.py: one matrix product for all of them), and
-in frequency (one grid, one search, one certificate for all).
+All tunings of a plant share what the plant does: in time (simulation/one_delay/march.py: one matrix product for
+all of them), and in frequency (one grid, one search, one certificate for all).
 """
 
 import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
 from simc_core.loops.frequency_response import at_frequencies
 from simc_core.loops.loop import Loop
@@ -22,9 +22,9 @@ from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins_many
-from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share
+from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share, too_much
 from simc_core.simulation.one_delay.march import march
-from simc_core.simulation.one_delay.unit_responses import Course
+from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.scenario import instants
 from simc_core.simulation.superposition import ramp_response
 
@@ -116,7 +116,7 @@ def sweep(
         raise InvalidParameter(
             f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, got {values}"
         )
-    controllers = tuple(dressed(simc(model, each), b, filter_ratio) for each in tau_c.tolist())
+    controllers = tuple(simc(model, each).with_filter(filter_ratio).with_weight(b) for each in tau_c.tolist())
     loops = [Loop(plant, controller) for controller in controllers]
     found = margins_many(loops)
     stable = [each.stable for each in found]
@@ -133,13 +133,6 @@ def sweep(
         *(np.array([getattr(each, name) for each in found]) for name in MARGINS),
         *metrics.T,
     )
-
-
-def dressed(controller: Controller, b: float, filter_ratio: float) -> Controller:
-    """`controller` with set-point weight b and tau_F = filter_ratio tau_D; pure I action takes neither."""
-    if isinstance(controller, IController):
-        return controller
-    return replace(controller, b=b, tau_F=filter_ratio * controller.tau_D)
 
 
 def time_curves(
@@ -184,7 +177,7 @@ def _curves_and_metrics(
 
 def _courses(
     plant: Plant, controllers: Sequence[Controller], ends: Sequence[float | None]
-) -> Iterator[tuple[np.ndarray, Course]]:
+) -> Iterator[tuple[np.ndarray, UnitResponses]]:
     """Tunings that can march together, and their course; ends: None for one that goes to its rest."""
     forms = [controller.to_parallel() for controller in controllers]
     work, alike = 0, defaultdict(list)
@@ -193,24 +186,18 @@ def _courses(
     for (*_, end), members in alike.items():
         at = 0
         while at < len(members):
-            course = march(plant, [forms[i] for i in members[at:]], end, share(len(forms)))
+            most = share(len(forms)) if end is None else (MOST_OF_ALL - work) / (len(members) - at)
+            course = march(plant, [forms[i] for i in members[at:]], end, most)
             some = members[at : at + len(course.at_rest)]
             at += len(some)
             if end is not None:
                 work += len(course.owner)
-                _check_work(work, len(forms), end)
+                if work > MOST_OF_ALL:
+                    raise InvalidParameter(too_much(end))
             yield np.array(some), course
 
 
-def _check_work(elements: int, tunings: int, t_end: float) -> None:
-    if elements > MOST_OF_ALL:
-        raise InvalidParameter(
-            f"{tunings} responses up to t = {t_end:.4g} must need at most {MOST_OF_ALL} elements, got more: ask for "
-            "fewer, or for shorter ones"
-        )
-
-
-def _at(course: Course, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:
+def _at(course: UnitResponses, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:
     values = course(t)
     if disturbance_time:
         values[:, :, 1] = course(t - disturbance_time)[:, :, 1]

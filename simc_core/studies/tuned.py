@@ -1,6 +1,7 @@
 """From a plant and what was chosen to the SIMC loop round the full plant; where the rule ends, what to do instead."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from simc_core.controllers.forms import Controller
@@ -15,7 +16,6 @@ from simc_core.rules.simc import A_THETA_LIMIT, simc
 from simc_core.rules.speed import tau_c_in_use
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
-from simc_core.studies.sweep import dressed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -91,7 +91,7 @@ def tuned(
         Where there is no model, or a number is out of bounds.
     """
     choices = {"order": order, "h": h, "tau_c": tau_c, "b": b, "filter": filter, "rules": rules, "speed": speed}
-    reduction = half_rule(plant, order, h, rules)
+    reduction = _reduced(plant, order, h, rules)
     try:
         return _closed(plant, choices, reduction)
     except InvalidParameter as error:
@@ -103,7 +103,7 @@ def tuned(
 def _closed(plant: Plant, choices: dict[str, Any], reduction: Reduction) -> Tuned:
     model = reduction.model
     tau_c = tau_c_in_use(model, choices["tau_c"], choices["speed"])
-    loop = Loop(plant, dressed(simc(model, tau_c), choices["b"], choices["filter"]))
+    loop = Loop(plant, simc(model, tau_c).with_filter(choices["filter"]).with_weight(choices["b"]))
     return Tuned(plant, choices, reduction, tau_c, loop, margins(loop))
 
 
@@ -135,3 +135,8 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
         return RuleEnds(why + "order 2 gives no stable loop either, shorten the dead time")
     values = ", ".join(f"{name} = {number(value, 5)}" for name, value in other.controller.settings.items())
     return RuleEnds(f"{why}take PID (order 2): {values}, Ms = {number(other.margins.Ms, 4)}", {"order": 2})
+
+
+@lru_cache(maxsize=16)  # 2 s for a plant of forty poles, and every remedy that is tried asks for the same
+def _reduced(plant: Plant, order: int, h: float, rules: str) -> Reduction:
+    return half_rule(plant, order, h, rules)

@@ -12,7 +12,7 @@ import numpy as np
 from simc_core.certificate.verdict import stability
 from simc_core.loops.loop import Loop
 from simc_core.simulation import Scenario, TimeResponse, simulate
-from simc_core.simulation.actuator.actuation import SAME, STEPS, Actuation, Inputs, Stepped, tracking_time
+from simc_core.simulation.actuator.actuation import SAME, STEPS, Actuation, Inputs, Stepped, tracking_time_in_use
 from simc_core.simulation.actuator.continuous import actuated
 from simc_core.simulation.horizon import times
 from simc_core.simulation.simulate import on_grid
@@ -76,7 +76,7 @@ def as_built(loop: Loop, scenario: Scenario) -> AsBuilt:
         on_grid(noisy, inputs, scenario.points),
         linear,
         unprotected,
-        tracking_time(loop, actuation),
+        tracking_time_in_use(loop, actuation),
         course.h,
         _numbers(loop, inputs, course, noisy, actuation) if stable else None,
     )
@@ -122,15 +122,17 @@ def _linear(loop: Loop, inputs: Inputs, points: int) -> TimeResponse:
 
 def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuation: Actuation) -> BuiltNumbers:
     linear = _linear(loop, inputs, FINE)
-    dt, whole = course.t[1], course.t[:-1] < inputs.t_end
+    time = np.minimum(np.diff(course.t), inputs.t_end - course.t[:-1])  # of each step within the horizon
+    whole = time > SAME * inputs.t_end  # less than that is rounding, of a step that begins with the end
+    time = time[whole]
     e = np.abs(np.stack([inputs.r(course.t[:-1]), inputs.r(course.t[1:])], axis=1) - course.y)[whole]
     held = np.abs(noisy.v - noisy.u)[whole] > SAME * np.max(np.abs(noisy.u))
     moves = np.abs(np.diff(noisy.u[whole, 0])) if actuation.h else np.array([math.nan])
     return BuiltNumbers(
         (float(noisy.v[whole].min()), float(noisy.v[whole].max())),
         (float(noisy.u[whole].min()), float(noisy.u[whole].max())),
-        float(dt * held.mean(axis=1).sum()),
-        float(dt * e.mean(axis=1).sum()),
+        float(time @ held.mean(axis=1)),
+        float(time @ e.mean(axis=1)),
         float(np.trapezoid(np.abs(linear.r - linear.y), linear.t)),
         float(moves.max(initial=0.0)),
         float(np.std((noisy.y - course.y)[whole, 1])),

@@ -7,7 +7,7 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.tools import THEMES, WIDTHS, fits, idle, nyquist_scale, picture
 
-TABS = ("Live", "Figures", "Bode", "Settings", "Windup", "Paper's pairs")
+TABS = ("Live", "Figures", "Bode", "Settings", "Windup", "Published pairs")
 PANELS = ("y1", "y2", "u", "nyquist")
 TRACEBACK = "[data-testid=stException]"
 
@@ -34,7 +34,7 @@ def test_from_a_pair_of_the_paper_to_a_link_that_opens_the_same_cascade(server, 
     page = open_page(f"{server}/cascade")
     tab(page, "Figures")
     choose_pair(page, "Pair 1a")
-    expect(page.get_by_role("radio", name="Synthesis")).to_be_checked()
+    expect(page.get_by_role("radio", name="Direct synthesis")).to_be_checked()
     assert peaks(page) == pytest.approx([2.0, 2.0], abs=0.01)
     expect(page.locator(".strip")).to_contain_text("2.31")  # IAE of d2, as printed
     outer = page.locator(".st-key-loop_outer")

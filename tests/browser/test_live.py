@@ -128,8 +128,8 @@ def test_an_unstable_range_is_hatched_and_drawn_as_such(server, open_page):
 
 def test_the_smallest_tau_c_for_an_ms_sets_the_slider(server, open_page):
     page = opened(open_page, server)
-    page.get_by_label("Smallest tau_c with Ms at most").fill("1.6")
-    page.get_by_label("Smallest tau_c with Ms at most").press("Enter")
+    page.get_by_label("Fastest tau_c with Ms up to").fill("1.6")
+    page.get_by_label("Fastest tau_c with Ms up to").press("Enter")
     expect(page.locator("[data-figure=Ms] b")).to_have_text("1.6")
     at_rest(page)
     Ms = float(page.locator("[data-figure=Ms]").get_attribute("title").split("\n")[0])
@@ -202,7 +202,7 @@ def test_a_lost_connection_comes_back_with_the_same_state(chromium):
 def test_a_zoom_shows_how_to_leave_it(server, open_page):
     page = opened(open_page, server)
     figure = page.locator("figure[data-panel=y]")
-    whole = figure.get_by_role("button", name="whole")
+    whole = figure.get_by_role("button", name="Reset zoom")
     expect(whole).to_be_hidden()
     box = figure.locator(".u-over").bounding_box()
     page.mouse.move(box["x"] + 0.2 * box["width"], box["y"] + 0.2 * box["height"])

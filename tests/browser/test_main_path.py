@@ -41,7 +41,7 @@ def test_a_deep_link_may_be_the_first_request_of_a_fresh_server(place, fresh_ser
 def test_from_a_typed_plant_to_a_link_that_opens_the_same_design(server, fresh_server, open_page):
     page = open_page(f"{server}/plant")
     type_plant(page, EXAMPLE)
-    expect(page.get_by_text("Stable, balanced", exact=True)).to_be_visible()
+    expect(page.get_by_text("Stable, lag and dead time alike", exact=True)).to_be_visible()
     follow(page, "Half rule")
     expect(page.get_by_test_id("stMain")).to_contain_text(re.compile("tau1|τ1|τ_1"))
     follow(page, "Tuning")

@@ -69,13 +69,13 @@ def test_numbers_typed_and_pasted_on_the_tuning_page(server, local_page):
         (pasted, "1\u202f200", "1200"),
         (pasted, "0,75", "0.75"),
     ):
-        how(page, "τc exactly", text)
-        expect(field(page, "τc exactly")).to_have_value(text)
+        how(page, "τc, exact", text)
+        expect(field(page, "τc, exact")).to_have_value(text)
         assert address(page)["tau_c"] == meant
-    typed(page, "τc exactly", "1,234")
+    typed(page, "τc, exact", "1,234")
     expect(page.get_by_text("0.75 stays in use")).to_be_visible()
     assert address(page)["tau_c"] == "0.75"
-    typed(page, "τc exactly", "0,8")
+    typed(page, "τc, exact", "0,8")
     expect(page.get_by_text("stays in use")).to_have_count(0)
     typed(page, "b", "0,6")
     assert address(page) | {"tau_c": "0.8", "b": "0.6"} == address(page)
@@ -84,11 +84,11 @@ def test_numbers_typed_and_pasted_on_the_tuning_page(server, local_page):
 def test_the_smallest_tau_c_for_an_Ms_is_typed_with_a_comma(server, local_page):
     page = local_page
     opened(page, server, "tuning")
-    typed(page, "Smallest tau_c with Ms at most", "1,5")
+    typed(page, "Fastest tau_c with Ms up to", "1,5")
     with_comma = address(page)["tau_c"]
-    typed(page, "Smallest tau_c with Ms at most", "1.5")
+    typed(page, "Fastest tau_c with Ms up to", "1.5")
     assert address(page)["tau_c"] == with_comma
-    typed(page, "Smallest tau_c with Ms at most", "1,500")
+    typed(page, "Fastest tau_c with Ms up to", "1,500")
     expect(page.get_by_text("can be read in two ways")).to_be_visible()
 
 

@@ -10,9 +10,8 @@ PANELS = ("y", "u", "nyquist", "sensitivity")
 
 
 def figures(open_page, server, width=1280) -> Page:
-    """The tab of figures, open."""
-    page = open_page(f"{server}/tuning?plant={EXAMPLE}", width)
-    page.get_by_role("tab", name="Figures").click()
+    """The figures to export, open."""
+    page = open_page(f"{server}/tuning?plant={EXAMPLE}&view=figures", width)
     idle(page)
     return page
 
@@ -51,8 +50,8 @@ def test_pinning_works_from_the_keyboard_and_is_drawn(key, server, open_page):
     page.get_by_role("button", name="Pin as A").press(key)
     idle(page)
     assert "pins=" in page.url
-    page.get_by_label("exactly").fill("20")
-    page.get_by_label("exactly").press("Enter")
+    page.get_by_label("exact").fill("20")
+    page.get_by_label("exact").press("Enter")
     idle(page)
     expect(panel(page, "y").locator(".legendtext", has_text="A")).to_be_visible()
 

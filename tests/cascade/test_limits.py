@@ -50,6 +50,62 @@ def test_a_derivative_gain_of_the_wrong_sign_names_filters_that_work(pair):
         assert not any("Kd of the outer" in each for each in design.notes)
 
 
+def random_pairs(number):
+    """Stable and integrating blocks, and a lambda for each loop."""
+    rng = np.random.default_rng(1)
+
+    def lags(low, high):
+        return tuple(float(x) for x in 10 ** rng.uniform(-1, 1, rng.integers(low, high)))
+
+    for _ in range(number):
+        gains, thetas = 10 ** rng.uniform(-1, 1, 2), 10 ** rng.uniform(-1, 0.5, 2)
+        primary = Plant(float(gains[0]), float(thetas[0]), lags(0, 3), integrators=int(rng.integers(0, 2)))
+        secondary = Plant(float(gains[1]), float(thetas[1]), lags(1, 3))
+        yield primary, secondary, float(10 ** rng.uniform(-1, 0.5)), float(10 ** rng.uniform(-0.5, 1))
+
+
+CURES = {
+    "inner": {"N_inner = 1": {"N_inner": 1.0}, "a PI inside": {"inner": "PI"}},
+    "outer": {
+        "N_outer = 1": {"N_outer": 1.0},
+        "the filter that cancels the inner zero": {"N_outer": None},
+        "a PI outside": {"outer": "PI"},
+    },
+}
+
+
+def test_on_random_pairs_every_cure_of_a_wrong_sign_that_is_named_cures_and_no_other():
+    followed = 0
+    for primary, secondary, lambda_inner, lambda_outer in random_pairs(80):
+        given = {"lambda_inner": lambda_inner, "lambda_outer": lambda_outer}
+        for note in synthesis_cascade(primary, secondary, **given).notes:
+            if not note.startswith("Kd of the"):
+                continue
+            loop = note.split()[3]
+            for words, change in CURES[loop].items():
+                try:
+                    form = getattr(synthesis_cascade(primary, secondary, **given, **change), loop)
+                except InvalidParameter:
+                    assert words not in note
+                    continue
+                assert (form.Kd * form.Ki >= 0) == (words in note), (words, note)
+                followed += 1
+    assert followed > 40
+
+
+def test_on_random_pairs_the_speed_that_separates_the_loops_does():
+    """To four digits, rounded up: what is typed from the words is not below five times the inner one."""
+    followed = 0
+    for primary, secondary, tau_c_inner, tau_c_outer in random_pairs(60):
+        close = simc_cascade(primary, secondary, tau_c_inner, tau_c_outer)
+        for note in (note for note in close.notes if "to separate" in note):
+            told = float(note.rsplit(" ", 1)[1])
+            assert told == pytest.approx(5 * tau_c_inner, rel=1e-3)
+            assert not any("to separate" in each for each in simc_cascade(primary, secondary, tau_c_inner, told).notes)
+            followed += 1
+    assert followed > 20
+
+
 def test_a_dominating_dead_time():
     """Pair 2: the dead times outside are 1.1, its slowest time constant 1."""
     (note,) = (each for each in synthesis_cascade(*PAIRS[2]).notes if "dead time" in each)

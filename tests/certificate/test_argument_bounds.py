@@ -6,7 +6,7 @@ import numpy as np
 
 from simc_core import IdealPid, Loop, Plant, SeriesPid
 from simc_core.algebra.factors import Factored
-from simc_core.certificate.argument_bounds import Family
+from simc_core.certificate.argument_bounds import BatchedSum
 from simc_core.certificate.characteristic import Characteristic, characteristic
 from simc_core.certificate.segments import Nodes
 
@@ -51,7 +51,7 @@ def test_what_is_certain_is_true():
     for _ in range(400):
         f = characteristic(random_terms(rng))
         omega = np.sort(10 ** rng.uniform(-2, 2, 12))
-        found = Family([f]).at(Nodes(omega, np.zeros(12, dtype=int), np.ones(11, dtype=bool)))
+        found = BatchedSum([f]).at(Nodes(omega, np.zeros(12, dtype=int), np.ones(11, dtype=bool)))
         assert np.allclose(np.exp(1j * found.angle), np.exp(1j * np.angle(values(f, omega))), atol=1e-9)
         for i in np.flatnonzero(found.certain & ~found.zeros[1:] & ~found.zeros[:-1]):
             inside = values(f, np.linspace(omega[i], omega[i + 1], FINE))
@@ -69,7 +69,7 @@ def test_the_bound_of_the_slope_holds():
         f = characteristic(random_terms(rng))
         a = 10 ** rng.uniform(-2, 2)
         omega = np.array([a, a * rng.uniform(1.01, 2)])
-        found = Family([f]).at(Nodes(omega, np.zeros(2, dtype=int), np.ones(1, dtype=bool)))
+        found = BatchedSum([f]).at(Nodes(omega, np.zeros(2, dtype=int), np.ones(1, dtype=bool)))
         inside = values(f, np.linspace(*omega, FINE))
         assert np.sum(np.abs(np.diff(inside))) <= found.excess[0] * np.abs(inside[[0, -1]]).sum() * (1 + 1e-9)
 
@@ -81,9 +81,9 @@ def test_loops_side_by_side_do_not_touch():
     functions = [characteristic([Loop(plant, SeriesPid(Kc, 5.5)).L]) for Kc in 10 ** rng.uniform(-1, 1, 20)]
     grids = [np.sort(10 ** rng.uniform(-2, 2, 9)) for _ in functions]
     owner = np.repeat(np.arange(20), 9)
-    together = Family(functions).at(Nodes(np.concatenate(grids), owner, owner[1:] == owner[:-1]))
+    together = BatchedSum(functions).at(Nodes(np.concatenate(grids), owner, owner[1:] == owner[:-1]))
     for i, (f, omega) in enumerate(zip(functions, grids, strict=True)):
-        alone = Family([f]).at(Nodes(omega, np.zeros(9, dtype=int), np.ones(8, dtype=bool)))
+        alone = BatchedSum([f]).at(Nodes(omega, np.zeros(9, dtype=int), np.ones(8, dtype=bool)))
         mine = slice(9 * i, 9 * i + 8)
         assert np.array_equal(together.certain[mine], alone.certain)
         assert np.allclose(together.change[mine], alone.change, rtol=0, atol=1e-12)

@@ -9,6 +9,8 @@ from scipy.special import lambertw
 
 from simc_core import IController, IdealPid, Loop, Plant, SeriesPid, count_unstable, dominant_poles, stability
 from simc_core.certificate.characteristic import shifted
+from tests.oracles.pole_count import unstable
+from tests.oracles.random_loops import resonant_loop, wild_loop
 
 
 def upper(values) -> list[complex]:
@@ -106,3 +108,38 @@ def test_sign_of_the_rightmost_pole_is_the_verdict():
         plant = Plant(10 ** rng.uniform(-1, 1), 10 ** rng.uniform(-1, 1), tuple(10 ** rng.uniform(-1, 1, 3)))
         loop = Loop(plant, SeriesPid(1.0, 10 ** rng.uniform(0, 1.5)))
         assert (dominant_poles(loop)[0].s.real < 0) == (stability(loop).verdict == "stable")
+
+
+@pytest.mark.parametrize("loops", [wild_loop, resonant_loop])
+def test_none_is_missing_among_those_shown(loops):
+    """Mikhailov's criterion on a grid counts as many to the right of the last one."""
+    rng, counted, full = np.random.default_rng(31), 0, 0
+    for _ in range(150):
+        loop = loops(rng)
+        poles = [pole for pole in dominant_poles(loop) if not pole.cancelled]
+        if len(poles) < 2 or loop.L.relative_degree == 0:
+            continue
+        full += len(poles) == 8
+        beside, last = (pole.s.real for pole in poles[-2:])
+        exact = unstable(loop.L, (beside + last) / 2)
+        if beside - last > 1e-5 * abs(last) and exact is not None:
+            counted += 1
+            assert exact == sum(2 if pole.s.imag else 1 for pole in poles[:-1])
+    assert counted > 100
+    assert full > 100
+
+
+def test_resonances_that_turn_many_times_within_the_dead_time_are_found():
+    """14 pairs about 15.7 rad/s, which the dead time 39 turns a hundred times."""
+    plant = Plant(
+        1.0, 39.07, (0.001453, 52.69, 113.9), (151.3, -80.01, 49.93), lag_pairs=((0.0636060314463138, 0.0048325),)
+    )
+    loop = Loop(plant, SeriesPid(0.0019149185, 152.57, 0.0, 1.40857857))
+    assert stability(loop).unstable_poles == unstable(loop.L) == 28
+    found = dominant_poles(loop, most=20)
+    assert sum(2 for pole in found if pole.s.real > 0) == 28
+    assert all(abs(1 + loop.L(pole.s)) < 1e-6 for pole in found)
+
+
+def test_of_a_neutral_loop_with_countless_unstable_poles_none_is_called_the_rightmost():
+    assert dominant_poles(Loop(Plant(1.0, 0.5, (1.0,)), SeriesPid(0.8, 5.0, 5.0))) == ()

@@ -143,3 +143,25 @@ POSITIVE, ROW = "omega must be positive", "omega must be a list of 1 to"
 def test_frequencies_must_be_a_list_of_positive_numbers(omega, says):
     with pytest.raises(InvalidParameter, match=says):
         frequency_response(Loop(Plant(1, 1), IController(0.5)), omega)
+
+
+@pytest.mark.parametrize("controller", [SeriesPid(2, 8, 3), IdealPid(2, 8, 3), ParallelPid(2, 0.25, 6)])
+def test_a_filter_is_a_part_of_the_derivative_time_and_a_weight_changes_nothing_else(controller):
+    found = controller.with_filter(0.1).with_weight(0.6)
+    assert found.tau_F == pytest.approx(0.3)
+    assert found.b == 0.6
+    assert found.settings == controller.settings
+    s = 0.4j
+    assert found.response(s) == pytest.approx(controller.response(s) / (0.3 * s + 1))
+    form = controller.to_parallel()
+    assert found.setpoint_response(s) == pytest.approx((0.6 * form.Kp + form.Ki / s) / (0.3 * s + 1))
+
+
+def test_pure_integral_action_has_neither_filter_nor_weight():
+    assert IController(0.5).with_filter(0.1).with_weight(0.5) == IController(0.5)
+    assert ParallelPid(0, 0.5).with_filter(0.1).tau_F == 0
+
+
+def test_a_derivative_without_proportional_action_has_no_derivative_time():
+    with pytest.raises(FormError, match="Kp != 0"):
+        ParallelPid(0, 0.5, 1.0).with_filter(0.1)

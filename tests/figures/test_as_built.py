@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from simc_core import Loop, Plant, Scenario, SeriesPid
+from simc_core import Actuation, Loop, Plant, Scenario, SeriesPid
 from simc_core.figures import built_input_figure
 from simc_core.studies.with_actuator import as_built
 
@@ -14,7 +14,7 @@ def names(figure):
 
 
 def test_limits_are_lines_where_they_are_near_and_left_out_where_they_would_flatten_the_curves():
-    figure = built_input_figure(as_built(LOOP, Scenario(u_min=-100.0, u_max=2.0)))
+    figure = built_input_figure(as_built(LOOP, Scenario(actuation=Actuation(u_min=-100.0, u_max=2.0))))
     assert names(figure) == ["u max", "linear", "no anti-windup", "as built"]
     line = figure["data"][0]
     assert np.all(line["y"] == 2.0)
@@ -22,5 +22,5 @@ def test_limits_are_lines_where_they_are_near_and_left_out_where_they_would_flat
 
 
 def test_curves_differ_by_their_dashes():
-    figure = built_input_figure(as_built(LOOP, Scenario(u_max=2.0)))
+    figure = built_input_figure(as_built(LOOP, Scenario(actuation=Actuation(u_max=2.0))))
     assert len({trace["line"]["dash"] for trace in figure["data"] if trace["name"] != "u max"}) == 3

@@ -60,3 +60,17 @@ def test_a_first_order_loop_has_closed_form_metrics():
 def test_an_offset_has_no_IAE():
     with pytest.raises(NotStable, match="offset"):
         performance(Loop(Plant(1, 1, (5,)), ParallelPid(2, 0)))
+
+
+@pytest.mark.parametrize("time", [0.01, 1.0, 60.0])
+def test_without_overshoot_there_is_no_peak_to_give_a_time_of(time):
+    """Y = 1 - e^{-t/2} comes nearer to 1 for ever."""
+    found = performance(Loop(Plant(1, 0, (8 * time,)), SeriesPid(4, 8 * time))).setpoint
+    assert found.overshoot == 0
+    assert math.isnan(found.peak_time)
+
+
+@pytest.mark.parametrize("k", [1.5, -4.5, 0.7])
+def test_of_a_flat_top_the_first_instant_counts(k):
+    """A load step on pure dead time: y = k from theta to 2 theta, when the controller answers."""
+    assert performance(Loop(Plant(k, 2.0), IController(0.15 / k))).disturbance.peak_time == pytest.approx(2.0)

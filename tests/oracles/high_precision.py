@@ -125,7 +125,7 @@ def derivative(series: list[int], h: Fraction) -> list[int]:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class UnitResponses:
     """y and u of a unit step: one series a piece, all pieces of length h from t = 0 on."""
 
     h: Fraction
@@ -155,7 +155,7 @@ def to_float(value: int) -> float:
     return float(Fraction(value, ONE))
 
 
-def course(loop: Loop, load: bool, t_end: float, reach: float = REACH) -> Course:
+def course(loop: Loop, load: bool, t_end: float, reach: float = REACH) -> UnitResponses:
     """Unit step of r (or of d) at t = 0 to t_end at least; theta > 0. reach: largest |pole| h of a piece."""
     Kp, Ki, Kd, tau_F, b, c = parallel(loop.controller)
     nums, dens = plant_factors(loop.plant)
@@ -183,7 +183,7 @@ def course(loop: Loop, load: bool, t_end: float, reach: float = REACH) -> Course
         ys.append(signal)
         largest = max(largest, *map(abs, us[-1]))
         assert abs(us[-1][-2]) < NOTHING * (largest >> BITS), "too few terms"
-    return Course(h, ys, us)
+    return UnitResponses(h, ys, us)
 
 
 def without_delay(loop: Loop, load: bool) -> Callable[[float], tuple[float, float]]:

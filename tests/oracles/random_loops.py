@@ -57,3 +57,19 @@ def simulated_loop(rng: np.random.Generator) -> Loop:
     form = IdealPid if rng.random() < 0.5 else SeriesPid
     weights = {"b": rng.uniform(0, 1), "c": rng.uniform(0, 1) if tau_F else 0.0}
     return Loop(plant, form(10 ** rng.uniform(-1, 0.5), theta * 10 ** rng.uniform(0, 1.5), tau_D, tau_F, **weights))
+
+
+def wild_loop(rng: np.random.Generator) -> Loop:
+    """Times over six decades, damping down to 1e-4, unstable plants, a filtered PID with settings of any size."""
+    theta = 10 ** rng.uniform(-3, 3)
+    lags = 10 ** rng.uniform(-3, 3, rng.integers(1, 5))
+    if rng.random() < 0.2:
+        lags[0] = -500.0
+    pairs = [(10 ** rng.uniform(-3, 3), 10 ** rng.uniform(-4, 0))] if rng.random() < 0.5 else []
+    leads = rng.choice([-1, 1], len(lags)) * 10 ** rng.uniform(-3, 3, len(lags))
+    leads = leads[: rng.integers(0, len(lags) + 2 * len(pairs))]
+    plant = Plant(1.0, theta, lags, leads, int(rng.random() < 0.25), pairs)
+    tau_D = theta * 10 ** rng.uniform(-2, 1) * rng.integers(0, 2)
+    smooth = plant.order > len(leads) + 1
+    tau_F = theta * 10 ** rng.uniform(-3, 0) if tau_D or not smooth else 0.0
+    return Loop(plant, SeriesPid(10 ** rng.uniform(-3, 2), theta * 10 ** rng.uniform(-2, 3), tau_D, tau_F))

@@ -28,4 +28,4 @@ def test_a_row_that_is_not_met_says_so():
     html = summary_html([wrong, *checks[1:]])
     assert f"<b>{len(checks) - 1} of {len(checks)}</b>" in html
     assert "alarm" in html
-    assert table([wrong])[""] == ["✗ differs"]
+    assert table([wrong])["met"] == ["✗ differs"]

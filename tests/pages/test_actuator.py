@@ -32,7 +32,7 @@ def curves(app):
 def test_every_view_is_marked_where_the_loop_as_built_is_another(view):
     assert "As built:" not in texts(opened(view, r="2"))
     app = opened(view, u_min="0", u_max="1.2", noise="0.02", sampling="0.5")
-    assert "u limited to [0, 1.2], measurement noise 0.02, sampled every 0.5" in texts(app)
+    assert "u limited to 0 … 1.2, measurement noise 0.02, sampled every 0.5" in texts(app)
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_one_thing_alone_is_enough_for_the_mark(given, words):
 def test_off_by_default_and_then_the_linear_loop_itself():
     app = opened()
     assert curves(app) == [{"r", "linear", "as built"}, {"linear", "as built"}]
-    built, linear = map(float, cell(app, "IAE as built · linear").split(" · "))
+    built, linear = map(float, cell(app, "IAE: as built · linear").split(" · "))
     assert built == pytest.approx(linear, rel=2e-3)
     assert "Nothing is limited yet" in texts(app)
 
@@ -68,7 +68,7 @@ def test_a_limit_is_typed_and_emptied_again():
 
 def test_heights_noise_and_sampling_have_their_words():
     app = opened(r="2", d="0", noise="0.1", sampling="1", h="1")
-    assert "Set-point step 2 at t = 0." in texts(app)
+    assert "Set point 2 from t = 0." in texts(app)
     assert "new value every 1" in texts(app)
     assert "(now 1), adds h/2" in texts(app)
     assert "Largest move of u" in strip(app)
@@ -86,3 +86,60 @@ def test_what_is_too_costly_is_said_in_the_tab_and_the_rest_of_the_page_stays():
     assert "steps for a sampling period of 1e-06" in "\n".join(error.value for error in app.error)
     assert "As built:" in texts(app)
     assert not app.get("plotly_chart")
+
+
+SITE = {"plant": "2.2 exp(-20s)/(180s+1)", "OP_low": "0", "OP_high": "100", "OP_now": "45", "OP_unit": "%"}
+
+
+def site(view="As built", **parameters):
+    return run_page("tuning", view, **SITE | parameters)
+
+
+def test_limits_are_typed_on_the_scale_of_OP_and_kept_as_deviations():
+    app = site()
+    assert app.text_input("widget_u_max").label == "Highest OP [%]"
+    app.text_input("widget_u_max").set_value("45,4").run()
+    assert float(address(app)["u_max"]) == pytest.approx(0.4, rel=1e-12)
+    assert app.text_input("widget_u_max").value == "45,4"
+    assert "r = 1 needs OP = 45.5, the limit is 45.4: it is never reached" in texts(app)
+    assert "OP [%] limited to ≤ 45.4" in texts(app)
+
+
+def test_what_is_out_of_reach_is_told_in_every_view_once():
+    for view in ("Bode of L", "As built"):
+        assert texts(site(view, u_max="0.4")).count("it is never reached") == 1
+
+
+def test_a_limit_beyond_where_OP_is_now_is_refused_on_that_scale():
+    app = site()
+    app.text_input("widget_u_min").set_value("50").run()
+    assert "Lowest OP must be ≤ 45, which is OP now, got 50" in app.error[0].value
+    assert "u_min" not in address(app)
+
+
+def test_the_range_of_the_loop_sheet_is_one_click():
+    app = site()
+    app.button("range_of_OP").click().run()
+    assert (address(app)["u_min"], address(app)["u_max"]) == ("-45", "55")
+    assert "range_of_OP" not in [button.key for button in app.button]
+    app.text_input("widget_OP_now").set_value("60").run()  # the valve is the same, the limits stay on its scale
+    assert (address(app)["u_min"], address(app)["u_max"]) == ("-60", "40")
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_a_load_or_a_set_point_that_is_nothing_leaves_every_view_whole(view):
+    opened(view, d="0")
+    opened(view, r="0", d="-0.5", d_time="40")
+
+
+def test_heights_and_times_are_fields_and_ramps_are_offered_for_a_level():
+    app = opened("Bode of L")
+    app.text_input("widget_r").set_value("-2,5").run()
+    app.text_input("widget_d_time").set_value("60").run()
+    assert (address(app)["r"], address(app)["d_time"]) == ("-2.5", "60")
+    assert "widget_r_ramp" not in [field.key for field in app.text_input]
+    app = run_page("tuning", "Live", plant="0.05 exp(-2s)/s", unit="min")
+    assert app.text_input("widget_d_ramp").label == "Load over [min]"
+    app.text_input("widget_d_ramp").set_value("30").run()
+    assert address(app)["d_ramp"] == "30"
+    assert not app.exception

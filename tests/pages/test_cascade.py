@@ -4,6 +4,7 @@ import base64
 import json
 import re
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,9 +12,10 @@ import pytest
 from pages.common.cascade.readout import strip_html
 from pages.common.session.design import Cascade
 from pages.common.session.state import ANSWERED
-from pages.common.studies.cascade import attempt, of_row, study, time_responses
-from simc_core import Plant
+from pages.common.studies.cascade import attempt, designed, of_row, scale, sounder, study, time_responses
+from simc_core import Plant, Scenario, simulate
 from simc_core.cascade.pairs import ROWS
+from tests.oracles.random_plants import random_plants
 
 from .tools import address, copyables, run_page, texts
 
@@ -246,6 +248,56 @@ def test_a_cascade_that_is_not_sound_shows_no_margins_and_no_metrics(view):
         assert not specs(app)
 
 
+FRACTIONS = "exp(-0.3s)/((3s+1)(0.7s+1))"
+PROVOKED = {
+    "inner loop unstable, synthesis": (
+        {"method": "synthesis", "tau_c_inner": "0.05", "tau_c_outer": "10", "Gb": "exp(-s)/(3s+1)"},
+        "so nothing is said of margins",
+    ),
+    "outer loop unstable": (
+        {"tau_c_inner": "0.14", "tau_c_outer": "0.3", "Ga": "exp(-s)/(0.4s+1)", "Gb": "0.4exp(-9s)/(1.9s+1)"},
+        "so nothing is said of margins",
+    ),
+    "loops not separate": ({}, "is usual for the loops to separate"),
+    "loops not separate, a speed that is not round": (
+        {"Gb": FRACTIONS, "tau_c_inner": "0.123456", "tau_c_outer": "0.3"},
+        "to separate",
+    ),
+    "Kd of the wrong sign outside": (
+        {"method": "synthesis", "Ga": "exp(-0.25s)/s", "Gb": "exp(-0.5s)/((s+1)(2s+1))"},
+        "$K_d$ of the outer controller",
+    ),
+    "dominating dead time": (
+        {"method": "synthesis", "Ga": "exp(-s)/(s+1)^2", "Gb": "exp(-0.1s)/(0.1s+1)"},
+        "dominating dead time",
+    ),
+    "SIMC of an unstable block": ({"Gb": UNSTABLE, "N_outer": "1"}, "must be stable or integrating"),
+}
+
+
+@pytest.mark.parametrize("name", PROVOKED)
+def test_what_a_guard_of_the_cascade_proposes_ends_it(name):
+    """The button where there is one, else what the words say."""
+    given, said = PROVOKED[name]
+    app = opened(**given)
+    assert said in texts(app)
+    buttons = [button for button in app.button if button.key in ("remedy_unsound", "use_synthesis")]
+    told = " ".join(item.value for item in app.warning)
+    if buttons:
+        buttons[0].click().run()
+    elif speed := re.search(r"take \$\\tau_c\$ \(outer\) = ([\d.]+)", told):
+        app.segmented_control(key="outer_by").set_value("tau_c").run()
+        app.text_input(key="tau_c_outer_exact").set_value(speed[1]).run()
+    elif "take N (outer) = 1" in told:
+        app.text_input(key="widget_N_outer").set_value("1").run()
+    else:
+        assert "compare with SIMC" in told
+        app.segmented_control(key="method").set_value("simc").run()
+    assert not app.exception
+    assert not app.error
+    assert said not in texts(app)
+
+
 def test_windup_is_simulated_three_ways_with_limits_of_ones_own():
     app = opened("Windup")
     figures = specs(app)
@@ -260,12 +312,12 @@ def test_limits_that_leave_nothing_are_refused_in_words():
     app = opened("Windup")
     app.text_input(key="u_min").set_value("0").run()
     app.text_input(key="u_max").set_value("0").run()
-    assert "must hold, the state of rest" in texts(app)
+    assert "must be > $u_{min}$ = 0, got 0" in texts(app)
     assert not specs(app)
 
 
 def test_all_pairs_stand_beside_what_is_printed():
-    app = opened("Paper's pairs")
+    app = opened("Published pairs")
     indices, settings = (frame.value for frame in app.dataframe)
     assert list(indices["pair"]) == [row.name for row in ROWS]
     assert {re.match(r"\d+", name)[0] for name in indices["pair"]} == {str(i) for i in range(1, 11)}
@@ -310,3 +362,30 @@ def test_an_impossible_cascade_is_a_reason_not_an_exception():
     found, refusal = attempt(Cascade(secondary=Plant(-1.0, 1.0, (-20.0,))))
     assert found is None
     assert "direct synthesis" in str(refusal)
+
+
+def test_slower_loops_that_are_proposed_are_stable_and_come_to_rest():
+    """On random pairs of all kinds with speeds far too high: the step of r ends at 1, by simulation."""
+    rng = np.random.default_rng(3)
+    plants = [plant for kind, plant in random_plants(100, seed=9) if kind in ("stable", "delay dominant", "zeros")]
+    plants = [plant for plant in plants if not plant.integrators]
+    followed = refused = 0
+    for _ in range(40):
+        primary, secondary = (plants[i] for i in rng.integers(len(plants), size=2))
+        speeds = 10 ** rng.uniform(-2, 0, 2)
+        found, _ = attempt(Cascade(primary, secondary, tau_c_inner=float(speeds[0]), tau_c_outer=float(speeds[1])))
+        if found is None or found.sound:
+            continue
+        change = sounder(found)
+        if not change:
+            refused += 1
+            continue
+        assert all(value > before for value, before in zip(change.values(), speeds[-len(change) :], strict=True))
+        loop = designed(replace(found.cascade, **change)).loop
+        span = 400 * (scale(found.cascade, "outer") + max(change.values()))
+        t = np.linspace(0, span, 200)
+        late = simulate(loop, Scenario(disturbance=0.0, disturbance2=0.0, t_end=span, t=t)).y[-20:]
+        assert np.all(np.abs(late - 1) < 0.5)
+        followed += 1
+    assert followed > 5
+    assert refused <= followed / 5

@@ -160,5 +160,7 @@ def test_my_plant_on_the_first_page_is_read_or_refused_in_words(attack):
     next(button for button in app.button if button.label == "Tune").click().run()
     assert not app.exception
     [refused] = app.error
-    pieces = inline(refused.value.removeprefix("**This cannot be read.** "))
-    assert {piece.type for piece in pieces} <= {"text", "code_inline"}
+    opened, words, closed, *quoted = MARKDOWN.parse(refused.value.removeprefix("**This cannot be read.** "))
+    assert (opened.type, closed.type) == ("paragraph_open", "paragraph_close")
+    assert {piece.type for piece in words.children} <= {"text", "code_inline"}
+    assert [piece.type for piece in quoted] == ["fence"] * bool(attack.strip())

@@ -58,7 +58,7 @@ def test_several_self_consistent_delays_are_all_shown():
     app = reduced("(6s+1)(3s+1)exp(-0.3s)/((10s+1)(8s+1)(s+1))")
     (table,) = [frame.value for frame in app.dataframe]
     assert list(table["θ"]) == ["0.3", "0.8"]  # theory.md sect. 2: E12
-    assert list(table[""]).count("chosen") == 1
+    assert list(table["taken"]).count("chosen") == 1
 
 
 @pytest.mark.parametrize("plant", ["1/(s^2+0.6s+1)/(s^2+0.2s+1)", "exp(-s)/s^3", "exp(-s)/((s-1)(s-2))"])

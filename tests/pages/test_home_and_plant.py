@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 
 import numpy as np
 import pytest
@@ -66,6 +67,18 @@ def test_text_that_is_no_plant_stays_and_so_does_the_last_good_plant():
     app.text_input("plant_text_text").set_value("3/(4s+2)").run()
     assert not app.error
     assert address(app)["plant"] == "1.5/(2 s + 1)"
+
+
+@pytest.mark.parametrize(("text", "at"), [("3/(4s+", 7), ("5 q/(4s+1)", 3), ("2/(4s+1)(s+1)", 9)])
+def test_home_shows_what_was_typed_with_a_mark_below_the_fault(text, at):
+    app = run_app()
+    app.text_input(key="home_plant").set_value(text)
+    next(button for button in app.button if button.label == "Tune").click().run()
+    assert app.text_input(key="home_plant").value == text
+    message, quoted, mark = re.search(r"(.*?)\n```text\n(.*?)\n(.*?)\n```", app.error[0].value).groups()
+    assert f"position {at}" in message.replace("`", "").replace("(", "")
+    assert quoted == text
+    assert mark.index("^") == at - 1
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pages.common.session import links, project
-from pages.common.session.design import Actuator, Cascade, Design, Tuning, put
+from pages.common.session.design import Actuator, Cascade, Design, Excitation, Tuning, put
 from pages.common.session.loops import Entry, Loops
 from pages.common.session.sheet import TIME_UNITS, Sheet
 from simc_core import IController, IdealPid, ParallelPid, Plant, SeriesPid
@@ -82,6 +82,14 @@ cascades = st.builds(
     N_outer=st.floats(0.1, 1000),
     filter_outer=st.sampled_from(["N", "zero"]),
 )
+excitations = st.builds(
+    Excitation,
+    setpoint=st.floats(-10, 10),
+    disturbance=st.floats(-10, 10),
+    load_time=st.none() | times,
+    setpoint_ramp=st.just(0.0) | times,
+    disturbance_ramp=st.just(0.0) | times,
+)
 actuators = st.builds(
     Actuator,
     u_min=st.none() | st.floats(-1e3, -1e-3) | st.just(0.0),
@@ -90,8 +98,6 @@ actuators = st.builds(
     noise=st.just(0.0) | times,
     seed=st.integers(0, 2**32 - 1),
     h=st.just(0.0) | times,
-    setpoint=st.floats(-10, 10),
-    disturbance=st.floats(-10, 10),
 )
 designs = st.builds(
     Design,
@@ -104,6 +110,7 @@ designs = st.builds(
     sheet=sheets,
     cascade=cascades,
     actuator=actuators,
+    excitation=excitations,
 ).map(lambda design: replace(design, source="simc" if design.own is None else "own"))
 
 of_step_tests = st.builds(
@@ -165,7 +172,9 @@ def test_the_address_of_the_default_is_short():
         ("pins", "1~2", "7 values"),
         ("pins", "!".join(["1~0~2~1~0~2003"] * 5), "at most 4"),
         ("Ms_inner", "0.5", ">= 1.05"),
-        ("u_min", "0.5", "u_min <= 0"),
+        ("u_min", "0.5", "u_min must be <= 0"),
+        ("d_time", "-1", "load_time must be >= 0"),
+        ("r_ramp", "-1", "setpoint_ramp must be >= 0"),
         ("u_min", "-inf", "finite"),
         ("u_max", "1e-15", "1e-12"),
         ("T_t", "0", "tracking_time must not be zero"),

@@ -54,15 +54,23 @@ def drawn():
         except SimcError:
             continue
     cases = []
-    for loop in loops:
+    for i, loop in enumerate(loops):
         end = 2 * settling_horizon(loop)
+        ramps = (0.3 * end, 0.1 * end) if i % 3 == 0 else (0.0, 0.0)
+        steps = {"r": 1.0, "d": -2.0 if i % 3 == 0 else 1.0, "load": end / 2, "r_ramp": ramps[0], "d_ramp": ramps[1]}
         plant = {name: getattr(loop.plant, name) for name in OF_PLANT}
         controller = {name: getattr(loop.controller.to_parallel(), name) for name in OF_CONTROLLER}
-        cases.append({"plant": plant, "controller": controller, "end": end, "load": end / 2})
+        cases.append({"plant": plant, "controller": controller, "end": end, "steps": steps})
     run = subprocess.run(
         ["node", SCRIPT], input=json.dumps(cases), capture_output=True, text=True, check=True, timeout=60
     )
     return list(zip(loops, cases, json.loads(run.stdout), strict=True))
+
+
+def asked(case: dict, t: np.ndarray) -> Scenario:
+    steps = case["steps"]
+    ramps = {"setpoint_ramp": steps["r_ramp"], "disturbance_ramp": steps["d_ramp"]}
+    return Scenario(steps["r"], steps["d"], steps["load"], case["end"], t=t, **ramps)
 
 
 def test_curves_of_stable_loops_are_right_at_every_point_that_is_drawn(drawn):
@@ -70,10 +78,10 @@ def test_curves_of_stable_loops_are_right_at_every_point_that_is_drawn(drawn):
     for loop, case, picture in drawn:
         if not picture["stable"]:
             continue
-        t, load = np.array(picture["t"]), case["load"]
+        t, load = np.array(picture["t"]), case["steps"]["load"]
         single = np.diff(t) > 0  # where there are two limits both may be drawn
         keep = np.r_[True, single] & np.r_[single, True] & (np.abs(t - load) > 1e-12 * load)
-        exact = simulate(loop, Scenario(t=t[keep], disturbance_time=load, t_end=case["end"]))
+        exact = simulate(loop, asked(case, t[keep]))
         for name in ("y", "u"):
             ours, theirs = np.array(picture[name])[keep], getattr(exact, name)
             assert np.max(np.abs(ours - theirs)) <= WITHIN * np.ptp(theirs), (name, loop)
@@ -88,9 +96,10 @@ def test_unstable_loops_are_drawn_right_as_long_as_they_stay_on_the_screen(drawn
         t, y = np.array(picture["t"]), np.array(picture["y"])
         off = np.flatnonzero(np.abs(y) > 20)
         end = off[0] if len(off) else len(t)
-        keep = np.r_[True, np.diff(t) > 0][:end] & (np.abs(t[:end] - case["load"]) > 1e-12 * case["load"])
+        load = case["steps"]["load"]
+        keep = np.r_[True, np.diff(t) > 0][:end] & (np.abs(t[:end] - load) > 1e-12 * load)
         keep &= np.r_[np.diff(t) > 0, True][:end]
-        exact = simulate(loop, Scenario(t=t[:end][keep], disturbance_time=case["load"], t_end=case["end"]))
+        exact = simulate(loop, asked(case, t[:end][keep]))
         assert np.max(np.abs(y[:end][keep] - exact.y), initial=0.0) <= WITHIN * 40, loop
 
 
@@ -117,7 +126,7 @@ def test_integrals_are_good_to_the_two_digits_that_are_shown(drawn):
                 judged = performance(loop)
             except SimcError:
                 continue
-            pairs = (("IAE_setpoint", judged.setpoint.IAE), ("IAE_load", judged.disturbance.IAE))
+            pairs = (("IAE_setpoint", judged.setpoint.IAE), ("IAE_disturbance", judged.disturbance.IAE))
             for name, exact in pairs:
                 ours = picture["figures"][name]
                 if ours is not None and exact:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pages.common.live.tuning import table
-from pages.common.session.design import Tuning
+from pages.common.session.design import Excitation, Tuning
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import study
 from simc_core import Plant
@@ -43,17 +43,17 @@ def unpacked(message: bytes) -> tuple[dict, dict[str, np.ndarray]]:
 def made(plant: Plant, tuning: Tuning = Tuning()):  # noqa: B008
     present = study(plant, tuning)
     subject = table.subject_of(plant, present, "series")
-    grid = table.grid_of(subject, present)
+    grid = table.grid_of(subject, present, Excitation())
     return present, subject, grid, table.table(subject, grid, [("A", present)], "name")
 
 
-def worst_error(plant: Plant, order: int, rng) -> float:
+def worst_error(plant: Plant, order: int, rng, excitation: Excitation = Excitation()) -> float:  # noqa: B008
     """Largest error of y, u, |S| and |T| over their ranges, at six tau_c, half of them in the fastest decade."""
     present = study(plant, Tuning(order=order))
     subject = table.subject_of(plant, present, "series")
-    grid = table.grid_of(subject, present)
+    grid = table.grid_of(subject, present, excitation)
     rows, found = table.rows(subject, grid)
-    curves = [each.astype(np.float32).astype(float) for each in table.curves(found).values()]  # as they travel
+    curves = [each.astype(np.float32).astype(float) for each in table.curves(found, grid).values()]  # as they travel
     worst = 0.0
     for x in np.concatenate([rng.uniform(rows.x[0], rows.x[-1], 3), rng.uniform(rows.x[0], rows.x[0] + 2.3, 3)]):
         y, u, re, im = table.responses(subject.loop(math.exp(x)), grid)
@@ -75,6 +75,13 @@ def test_curves_between_rows_are_right_to_a_fifth_of_a_per_cent():
             continue
         assert error <= WORST, (plant, order)
         done += 1
+
+
+@pytest.mark.parametrize("asked", [Excitation(-3.0, 0.5), Excitation(2.0, -1.0, 90.0, 25.0, 10.0)])
+def test_curves_of_other_heights_and_of_ramps_are_as_right(asked):
+    rng = np.random.default_rng(SEED)
+    for plant in (Plant(0.05, 2.0, integrators=1), Plant(-2.0, 1.0, (10.0, 3.0))):
+        assert worst_error(plant, 1, rng, asked) <= WORST
 
 
 def test_a_table_holds_what_its_header_says_and_pins_share_its_grid():

@@ -99,9 +99,9 @@ def test_each_field_refuses_in_words_and_the_last_good_value_stays(field):
         ("b", "2,5", "b must be ≤ 2, got 2.5"),
         ("b", "−1", "b must be ≥ 0, got −1"),
         ("filter", "11", "τF/τD must be ≤ 10, got 11"),
-        ("tau_c", "-3", "τc exactly must be > 0, got −3"),
+        ("tau_c", "-3", "τc, exact must be > 0, got −3"),
         ("tau_c", "1e12", "between 1e-09 and 1e+09, got 1e+12"),
-        ("u_max", "-0,1", "starts from rest at u = 0, got -inf and −0.1"),
+        ("u_max", "-0,1", "Highest u must be ≥ 0, where the loop is at rest, got −0.1"),
         ("sampling", "−2", "Sampling of the controller must be ≥ 0, got −2"),
         ("h", "-1", "Sampling allowed for in θ must be ≥ 0, got −1"),
         ("k", "0", "Gain k must not be zero"),
@@ -210,7 +210,7 @@ def test_what_was_read_stands_in_words_beside_the_text():
     assert "Read: gain 2.2, lag 180, dead time 20." in texts(app)
     app.text_input("plant_text_text").set_value("\\frob{2}/(s+1)").run()
     assert "\\frob" in app.error[0].value
-    assert "stays in use" in texts(app)
+    assert "the previous plant is used: gain 2.2, lag 180, dead time 20." in texts(app)
     assert "gain 2.2, lag 180, dead time 20" in texts(app)
 
 

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pages.common.session.design import Design, Tuning, in_time_unit
+from pages.common.parts.units import unit_of
+from pages.common.session.design import Actuator, Design, Tuning, in_time_unit, put
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import study
 from simc_core import IdealPid, InvalidParameter, Plant, SeriesPid, parse_plant
@@ -49,6 +50,15 @@ def test_facts_of_a_step_test_are_converted_with_their_plant():
     assert (hours.facts.duration, hours.plant.k) == (1.0, 0.03)
 
 
+def test_limits_of_the_output_stay_on_its_scale_when_the_operating_point_moves():
+    valve = Design(sheet=Sheet(OP_now=45), actuator=Actuator(u_min=-45, u_max=55))
+    moved = put(valve, "OP_now", 60).actuator
+    assert (moved.u_min, moved.u_max) == (-60, 40)
+    assert put(valve, "OP_now", None).actuator == valve.actuator
+    with pytest.raises(InvalidParameter, match="OP_now must be within the limits of the output, 0 to 100, got 110"):
+        put(valve, "OP_now", 110)
+
+
 def test_margins_do_not_know_the_unit_and_times_are_sixty_times_smaller():
     level = Design(Plant(0.05, 2.0, integrators=1), Tuning(), sheet=Sheet(time_unit="s"))
     seconds, minutes = (study(each.plant, each.tuning) for each in (level, in_time_unit(level, "min")))
@@ -87,3 +97,9 @@ def test_another_unit_converts_what_is_on_the_page_and_says_so():
     app.selectbox(key="sheet_unit").set_value("min").run()
     assert parse_plant(address(app)["plant"]).lags == (3.0,)
     assert "converted from s to min" in texts(app)
+
+
+def test_a_unit_within_another_is_read_in_one_way():
+    level = Sheet(time_unit="min", PV_unit="m", OP_unit="m3/h")
+    assert [unit_of(what, level) for what in ("OP", "OP/PV", "PV time")] == ["m3/h", "(m3/h)/m", "m min"]
+    assert unit_of("OP/PV", Sheet(OP_unit="%")) == ""

@@ -88,8 +88,8 @@ def test_poles_and_zeros_against_python_control():
     ("plant", "kind"),
     [
         (Plant(1, 1, (8,)), "stable, lag dominant"),
-        (Plant(1, 1, (2,)), "stable, balanced"),
-        (Plant(1, 1, (0.2,)), "stable, delay dominant"),
+        (Plant(1, 1, (2,)), "stable, lag and dead time alike"),
+        (Plant(1, 1, (0.2,)), "stable, dead time dominant"),
         (Plant(1, 0, (2,)), "stable, no dead time"),
         (Plant(1, 1), "pure dead time"),
         (Plant(1), "pure gain"),
@@ -179,3 +179,10 @@ def test_models_are_the_plants_of_their_docstrings(model, value):
 def test_models_out_of_bounds(make, words):
     with pytest.raises(InvalidParameter, match=words):
         make()
+
+
+def test_times_of_a_plant():
+    plant = Plant(1, 2, (5, -7), (30,), 1, lag_pairs=((6, 0.3), (4, 2.0)))
+    assert plant.total_time == 2 + 5 + 7 + 6 + 4
+    assert plant.slowest == 7
+    assert Plant(3, integrators=1).total_time == Plant(3, 1).slowest == 0

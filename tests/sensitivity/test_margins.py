@@ -19,7 +19,7 @@ from simc_core import (
     margins_of,
     stability,
 )
-from simc_core.sensitivity.log_response import Closed, FactoredResponse, Series, Together
+from simc_core.sensitivity.log_response import Closed, FactoredResponse, ResponseBatch, Series
 from simc_core.sensitivity.search_grid import MOST_NODES, search_grid
 from tests.oracles.published import select
 from tests.oracles.random_loops import resonant_loop
@@ -138,7 +138,7 @@ def test_near_neutral_loops_take_a_bounded_grid(plant, off):
     limit = plant.k * math.prod(plant.leads) / math.prod(plant.lags)
     loop = Loop(plant, SeriesPid((1 - off) / limit, math.inf))
     response = FactoredResponse(loop.L)
-    assert search_grid([response], Together([response]).log_derivatives).omega.size <= MOST_NODES + 1000
+    assert search_grid([response], ResponseBatch([response]).log_derivatives).omega.size <= MOST_NODES + 1000
     m = margins(loop)
     assert (m.Ms, m.GM) == pytest.approx((1 / off, 1 / (1 - off)), rel=1e-5)
 

@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from simc_core import InvalidParameter, Loop, Plant, Scenario, SeriesPid, frequency_response, simulate, stability
+from simc_core import (
+    Actuation,
+    InvalidParameter,
+    Loop,
+    Plant,
+    Scenario,
+    SeriesPid,
+    frequency_response,
+    simulate,
+    stability,
+)
 
 LOOP = Loop(Plant(1, 1, (8,)), SeriesPid(4, 8))
 
@@ -53,7 +63,7 @@ def test_frequencies(omega, words):
 
 def test_saturation_with_a_dead_time_far_below_the_horizon():
     with pytest.raises(InvalidParameter, match=r"50000 steps for a dead time of 1e-09, got 1e[+]15"):
-        simulate(Loop(Plant(1, 1e-9, (8,)), SeriesPid(4, 8)), Scenario(t_end=1e6, u_max=1.0))
+        simulate(Loop(Plant(1, 1e-9, (8,)), SeriesPid(4, 8)), Scenario(t_end=1e6, actuation=Actuation(u_max=1.0)))
 
 
 @pytest.mark.parametrize("off", [1e-7, 1e-8, 1e-9])

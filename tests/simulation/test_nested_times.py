@@ -12,7 +12,7 @@ import pytest
 from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, SeriesPid, simulate
 from simc_core.simulation.collocation.elements import P
 from simc_core.simulation.several_delays.network import network
-from simc_core.simulation.several_delays.stepper import Steps, steps_of
+from simc_core.simulation.several_delays.stepper import NestedStepper, steps_of
 from tests.oracles.pairs import PAIRS
 
 NODES = 32  # of the contour: about 1e-19 of the largest term of the series
@@ -149,8 +149,8 @@ def test_a_tiny_inner_dead_time(ratio):
     Ca, Cb, b = SETTINGS[1]
     t = np.linspace(0.0, 40.0, 81)
 
-    def steps_of(secondary: Plant) -> Steps:
-        steps = Steps(network(NestedLoops((secondary, Ga), (ParallelPid(*Cb), ParallelPid(*Ca, b=b)))))
+    def steps_of(secondary: Plant) -> NestedStepper:
+        steps = NestedStepper(network(NestedLoops((secondary, Ga), (ParallelPid(*Cb), ParallelPid(*Ca, b=b)))))
         steps.run(80.0)
         return steps
 
@@ -166,7 +166,7 @@ def test_a_fast_filter_costs_no_elements():
     """Kd/tau_F = 1e5: u is the small difference of large numbers, and its rounding must not be taken for detail."""
     Gb, Ga = Plant(-0.216, 0.0114, (0.31, 0.47, 1.0), (0.36,)), Plant(2.15, 0.4, (2.8, 0.63), integrators=1)
     Cb, Ca = SeriesPid(-168.6, 0.0946, 0.4736, 0.000612), SeriesPid(0.2152, 8.632, 3.09, 0.0708)
-    steps = Steps(network(NestedLoops((Gb, Ga), (Cb, Ca))))
+    steps = NestedStepper(network(NestedLoops((Gb, Ga), (Cb, Ca))))
     assert steps.run(600.0)(np.array([600.0]))[0, 1, 0] == pytest.approx(1.0, abs=1e-9)
     assert steps.count < 150
 

@@ -11,7 +11,6 @@ from scipy.signal import cont2discrete, tf2ss
 
 from simc_core import (
     CascadeLoop,
-    IController,
     InvalidParameter,
     Loop,
     ParallelPid,
@@ -21,7 +20,7 @@ from simc_core import (
     simulate,
 )
 from simc_core.interop import closed_loop
-from simc_core.simulation.actuator.actuation import Actuation, Inputs, Stepped, tracking_time
+from simc_core.simulation.actuator.actuation import Actuation, Inputs, Stepped, tracking_time_in_use
 from simc_core.simulation.actuator.continuous import actuated as run
 from tests.oracles.saturated_loop import by_steps
 
@@ -140,12 +139,10 @@ def test_anti_windup_shortens_the_overshoot_that_a_saturated_integrator_makes():
     assert tracked.y.max() < wound.y.max() - 0.05
 
 
-def test_default_tracking_times():
-    plant = Plant(2.0, 1.0, (8.0,))
-    assert tracking_time(Loop(plant, SeriesPid(4.0, 8.0)), Actuation()) == 8.0
-    assert tracking_time(Loop(plant, SeriesPid(4.0, 8.0, 2.0)), Actuation()) == pytest.approx(4.0)  # sqrt(10 * 1.6)
-    assert tracking_time(Loop(plant, IController(0.25)), Actuation()) == 2.0
-    assert tracking_time(Loop(plant, SeriesPid(4.0, 8.0)), Actuation(tracking_time=3.0)) == 3.0
+def test_a_tracking_time_that_is_given_goes_before_the_usual_one():
+    loop = Loop(Plant(2.0, 1.0, (8.0,)), SeriesPid(4.0, 8.0))
+    assert tracking_time_in_use(loop, Actuation()) == 8.0
+    assert tracking_time_in_use(loop, Actuation(tracking_time=3.0)) == 3.0
 
 
 def test_what_costs_too_much_or_has_no_meaning_is_refused():
@@ -159,7 +156,7 @@ def test_what_costs_too_much_or_has_no_meaning_is_refused():
 def test_saturated_loop_with_dead_time_against_solve_ivp_from_delay_to_delay(T_t):
     t, y = by_steps(2.0, 5.0, 1.0, 1.5, 3.0, (-0.1, 0.8), T_t, 24.0, 12.3, -0.25)
     loop = Loop(Plant(2.0, 1.0, (5.0,)), SeriesPid(1.5, 3.0))
-    scenario = Scenario(1.0, -0.25, 12.3, t=t, u_min=-0.1, u_max=0.8, tracking_time=T_t)
+    scenario = Scenario(1.0, -0.25, 12.3, t=t, actuation=Actuation(u_min=-0.1, u_max=0.8, tracking_time=T_t))
     np.testing.assert_allclose(simulate(loop, scenario).y, y, atol=2e-5)
 
 
@@ -191,7 +188,7 @@ def test_sampled_pid_with_filter_limits_and_anti_windup_against_its_difference_e
         x = A @ x + B * (sent[j] + load)
     t = h * np.arange(160)
     controller = ParallelPid(Kp, Ki, Kd, tau_F, b, c)
-    scenario = Scenario(1.0, -0.4, 20.0, t=t, u_min=-0.2, u_max=1.6, tracking_time=T_t, h=h)
+    scenario = Scenario(1.0, -0.4, 20.0, t=t, actuation=Actuation(u_min=-0.2, u_max=1.6, tracking_time=T_t, h=h))
     found = simulate(Loop(plant, controller), scenario)
     assert max(u_hand) == 1.6
     np.testing.assert_allclose(found.y, y_hand, atol=1e-12)
@@ -217,16 +214,17 @@ def test_noise_of_a_sampled_loop_has_the_variance_of_its_lyapunov_equation():
 def test_both_limits_at_jumps_without_instants_and_the_right_one_with_them():
     """P control of pure dead time: u = Kc sum (-Kc)^j, until it saturates."""
     loop = Loop(Plant(1.0, 1.0), SeriesPid(0.5, math.inf))
-    found = simulate(loop, Scenario(1.0, 0.0, t_end=4.0, points=50, u_max=0.4))
+    found = simulate(loop, Scenario(1.0, 0.0, t_end=4.0, points=50, actuation=Actuation(u_max=0.4)))
     twice = np.flatnonzero(np.diff(found.t) == 0)
     assert found.t[twice] == pytest.approx([0.0, 1.0, 2.0, 3.0, 4.0])
     assert found.u[twice] == pytest.approx([0.0, 0.4, 0.3, 0.35, 0.325])
     assert found.u[twice + 1] == pytest.approx([0.4, 0.3, 0.35, 0.325, 0.3375])
     assert found.r[0] == 0.0
     assert found.r[1] == 1.0
-    at = simulate(loop, Scenario(1.0, 0.0, t=np.array([0.0, 1.0, 1.5, 2.0]), u_max=0.4))
+    instants = np.array([0.0, 1.0, 1.5, 2.0])
+    at = simulate(loop, Scenario(1.0, 0.0, t=instants, actuation=Actuation(u_max=0.4)))
     assert at.u == pytest.approx([0.4, 0.3, 0.3, 0.35])
-    sampled = simulate(loop, Scenario(1.0, 0.0, t_end=4.0, points=9, h=0.25))
+    sampled = simulate(loop, Scenario(1.0, 0.0, t_end=4.0, points=9, actuation=Actuation(h=0.25)))
     assert np.all(np.diff(sampled.u)[np.diff(sampled.t) > 0] == 0)  # between jumps u is held
 
 
@@ -255,7 +253,9 @@ def test_periods_and_dead_times_beyond_the_horizon():
 def test_a_plant_that_is_a_gain_answers_at_once():
     """y = u + d under PI: v = Kc (1 - y) + I with u = v gives u' = (1 - u - d)/(2 tau_I) for Kc = 1, from u = 1/2."""
     t = np.linspace(0.0, 40.0, 41)
-    found = simulate(Loop(Plant(1.0), SeriesPid(1.0, 4.0)), Scenario(1.0, -0.5, 20.0, t=t, u_max=1.2))
+    found = simulate(
+        Loop(Plant(1.0), SeriesPid(1.0, 4.0)), Scenario(1.0, -0.5, 20.0, t=t, actuation=Actuation(u_max=1.2))
+    )
     first = 1 - 0.5 * np.exp(-t / 8)
     late = np.minimum(1.5 - (0.25 + 0.5 * np.exp(-2.5)) * np.exp(-(t - 20) / 8), 1.2)
     assert found.u[t < 20] == pytest.approx(first[t < 20], abs=1e-6)
@@ -265,7 +265,7 @@ def test_a_plant_that_is_a_gain_answers_at_once():
 
 def test_an_unstable_response_is_cut_off_and_not_infinite():
     loop = Loop(Plant(-1.0, 1.0, (-1.0,)), SeriesPid(-1.0, 8.0))
-    found = simulate(loop, Scenario(t_end=3000.0, u_min=-0.1, u_max=0.1))
+    found = simulate(loop, Scenario(t_end=3000.0, actuation=Actuation(u_min=-0.1, u_max=0.1)))
     assert np.all(np.isfinite(found.y))
     assert np.max(np.abs(found.y)) > 1e100
 
@@ -273,9 +273,9 @@ def test_an_unstable_response_is_cut_off_and_not_infinite():
 @pytest.mark.parametrize(
     ("fields", "words"),
     [
-        ({"u_min": 0.1}, "u_min <= 0 <= u_max.*got 0.1 and inf"),
-        ({"u_max": -1.0}, "got -inf and -1"),
-        ({"u_min": 0.0, "u_max": 0.0}, "got 0 and 0"),
+        ({"u_min": 0.1}, "u_min must be <= 0, where the loop is at rest, got 0.1$"),
+        ({"u_max": -1.0}, "u_max must be >= 0, where the loop is at rest, got -1$"),
+        ({"u_min": 0.0, "u_max": 0.0}, "u_max must be > u_min = 0, got 0"),
         ({"u_min": math.nan}, "u_min must be finite, got nan"),
         ({"u_max": "1"}, "u_max must be a number, got '1'"),
         ({"u_max": 1e13}, "u_max must be <= 1e[+]12"),
@@ -291,17 +291,22 @@ def test_an_unstable_response_is_cut_off_and_not_infinite():
 )
 def test_the_door_names_field_bound_and_value(fields, words):
     with pytest.raises(InvalidParameter, match=words):
-        Scenario(**fields)
+        Actuation(**fields)
+
+
+def test_a_scenario_takes_nothing_else_for_an_actuation():
+    with pytest.raises(TypeError, match="actuation must be an Actuation, got dict"):
+        Scenario(actuation={"u_max": 1.0})
 
 
 def test_what_has_no_meaning_is_refused():
     both = Loop(Plant(1.0, 1.0, (8.0, 2.0)), SeriesPid(4.0, 8.0, 1.0, c=1.0))
-    with pytest.raises(InvalidParameter, match="derivative acts on the set point"):
-        simulate(both, Scenario(u_max=2.0))
+    with pytest.raises(InvalidParameter, match="tau_F must be > 0 for derivative action on a set-point step"):
+        simulate(both, Scenario(actuation=Actuation(u_max=2.0)))
     cascade = CascadeLoop(Plant(1, 1, (5,)), Plant(1, 0.2, (1,)), SeriesPid(1, 5), SeriesPid(1, 1))
     with pytest.raises(InvalidParameter, match="nested loops"):
-        simulate(cascade, Scenario(u_max=2.0))
+        simulate(cascade, Scenario(actuation=Actuation(u_max=2.0)))
     with pytest.raises(InvalidParameter, match="u is not defined"):
-        simulate(Loop(Plant(-1.0), SeriesPid(1.0, 8.0)), Scenario(t_end=5.0, u_max=1.0))
+        simulate(Loop(Plant(-1.0), SeriesPid(1.0, 8.0)), Scenario(t_end=5.0, actuation=Actuation(u_max=1.0)))
     with pytest.raises(InvalidParameter, match="50000 steps for a sampling period of 1e-06"):
-        simulate(LOOPS[0], Scenario(h=1e-6))
+        simulate(LOOPS[0], Scenario(actuation=Actuation(h=1e-6)))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from simc_core import Loop, ParallelPid, Plant, Scenario, SeriesPid, simulate
+from simc_core import Actuation, Loop, ParallelPid, Plant, Scenario, SeriesPid, simulate
 from simc_core.interop import closed_loop
 from tests.oracles.saturated_loop import by_steps
 
@@ -17,7 +17,7 @@ def test_a_dead_time_of_one_step_without_limits_against_pade(plant):
     """6000 steps of theta; a Pade approximation of order 3 is exact to 1e-9 at all frequencies the loop reaches."""
     loop = Loop(plant, ParallelPid(4.0, 0.5, 6.0 if len(plant.lags) == 2 else 0.0, 0.3, 0.8, 0.4))
     t = np.linspace(1.0, 30.0, 291)
-    found = simulate(loop, Scenario(1.0, -0.5, 10.0, t=t, u_max=1e6))
+    found = simulate(loop, Scenario(1.0, -0.5, 10.0, t=t, actuation=Actuation(u_max=1e6)))
     grid = np.linspace(0.0, 30.0, 30_001)
     given = np.stack([np.ones_like(grid), -0.5 * (grid >= 10.0)])
     y, u = control.forced_response(closed_loop(loop, 3), grid, given).y
@@ -31,7 +31,7 @@ def test_steps_of_a_dead_time_and_of_half_of_it_are_of_second_order(monkeypatch)
     theta, T_t, t_end = 0.25, 2.0, 15.0
     t, y = by_steps(2.0, 5.0, theta, 1.5, 3.0, (-0.1, 0.8), T_t, t_end, 7.5, -0.25)
     loop = Loop(Plant(2.0, theta, (5.0,)), SeriesPid(1.5, 3.0))
-    scenario = Scenario(1.0, -0.25, 7.5, t=t, u_min=-0.1, u_max=0.8, tracking_time=T_t)
+    scenario = Scenario(1.0, -0.25, 7.5, t=t, actuation=Actuation(u_min=-0.1, u_max=0.8, tracking_time=T_t))
     errors = []
     for parts in (1, 2, 4):
         monkeypatch.setattr("simc_core.simulation.actuator.continuous.STEPS", parts * t_end / theta)
@@ -60,7 +60,7 @@ def test_a_filtered_pid_controller_without_dead_time_against_solve_ivp(T_t):
     t = np.linspace(0.0, 60.0, 241)
     exact = np.where(t < 30, before(np.minimum(t, 30.0))[3], after(np.maximum(t, 30.0))[3])
     loop = Loop(Plant(1.0, 0.0, tuple(lags)), ParallelPid(Kp, Ki, Kd, tau_F, b, c))
-    scenario = Scenario(1.0, 1.15, 30.0, t=t, u_min=-0.2, u_max=1.6, tracking_time=T_t)
+    scenario = Scenario(1.0, 1.15, 30.0, t=t, actuation=Actuation(u_min=-0.2, u_max=1.6, tracking_time=T_t))
     found = simulate(loop, scenario)
     assert found.u.max() == 1.6
     assert found.u.min() == -0.2
@@ -96,8 +96,7 @@ def test_sampled_plant_with_a_jump_against_its_difference_equation(part, samples
             d = load if begin >= load_at + part * h - 1e-9 else 0.0
             before = w[begin >= t + h * (1 - late) - 1e-9] + d
             x = moved(x, before, end - begin)
-    scenario = Scenario(
-        1.0, load, load_at, t=h * np.arange(samples), u_min=limits[0], u_max=limits[1], tracking_time=T_t, h=h
-    )
+    actuation = Actuation(u_min=limits[0], u_max=limits[1], tracking_time=T_t, h=h)
+    scenario = Scenario(1.0, load, load_at, t=h * np.arange(samples), actuation=actuation)
     found = simulate(Loop(Plant(1.0, part * h, (8.0,), (2.0,)), ParallelPid(Kp, Ki)), scenario)
     np.testing.assert_allclose(found.u, us, atol=1e-11)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from simc_core import Plant, Scenario, simulate
+from simc_core import Actuation, Plant, Scenario, simulate
 from simc_core.studies.built_advice import (
     error_integral,
     out_of_reach,
@@ -26,20 +26,26 @@ def followed(scenario, item):
 
 def test_a_set_point_that_the_actuator_cannot_hold():
     """r = 1 needs u = 1/2.2 = 0.455; with 0.4 y creeps to 0.88."""
-    scenario = Scenario(1.0, 0.0, u_max=0.4)
+    scenario = Scenario(1.0, 0.0, actuation=Actuation(u_max=0.4))
     (found,) = out_of_reach(SITE, scenario)
-    assert "needs u = 0.455, the limit is 0.4: it is never reached" in found.text
+    assert "r = 1 needs u = 0.455, the limit is 0.4: it is never reached" in found.text
     response = simulate(tuned(SITE).loop, scenario)
     assert response.y[-1] == pytest.approx(0.88, abs=1e-3)
     assert found.change["r"] == pytest.approx(0.88)
     assert out_of_reach(SITE, followed(scenario, found)) == ()
-    assert out_of_reach(SITE, Scenario(1.0, 0.0, u_max=0.5)) == ()
+    assert out_of_reach(SITE, Scenario(1.0, 0.0, actuation=Actuation(u_max=0.5))) == ()
+
+
+def test_limits_are_told_on_the_scale_of_the_user():
+    """OP at 45 %, limits 0 and 46: 2.5 degrees need 1/2.2 * 2.5 = 1.14 % more."""
+    (found,) = out_of_reach(SITE, Scenario(2.5, 0.0, actuation=Actuation(u_min=-45.0, u_max=1.0)), "OP", 45.0)
+    assert found.text == "r = 2.5 needs OP = 46.1, the limit is 46: it is never reached."
 
 
 def test_a_load_that_the_actuator_cannot_hold():
     """A tank: r needs no u at rest, a load of 1 needs u = -1."""
     tank = Plant(0.05, 2, integrators=1)
-    scenario = Scenario(1.0, 1.0, u_min=-0.5, u_max=0.5)
+    scenario = Scenario(1.0, 1.0, actuation=Actuation(u_min=-0.5, u_max=0.5))
     (found,) = out_of_reach(tank, scenario)
     assert "u = -1 is needed, the limit is -0.5" in found.text
     assert out_of_reach(tank, followed(scenario, found)) == ()
@@ -54,7 +60,7 @@ def test_what_is_said_to_be_out_of_reach_is(sign):
             continue
         r, d = float(sign * rng.uniform(0.5, 2)), float(rng.uniform(-1, 1) / abs(plant.k))
         top = float(rng.uniform(0.2, 2) / abs(plant.k))
-        scenario = Scenario(r, d, u_min=-top, u_max=top)
+        scenario = Scenario(r, d, actuation=Actuation(u_min=-top, u_max=top))
         needed = (r / plant.k, r / plant.k - d)
         found = out_of_reach(plant, scenario)
         assert bool(found) == any(abs(u) > top for u in needed), kind

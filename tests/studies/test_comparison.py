@@ -81,7 +81,8 @@ def test_factor_and_load_error_at_equal_robustness_are_those_that_are_known(key,
     loop = Loop(PLANTS[plant], found.controller)
     judged = margins(loop)
     assert max(judged.Ms, judged.Mt) == pytest.approx(1.59, rel=1e-8)
-    assert performance(loop).disturbance.IAE == pytest.approx(load, rel=6e-5)
+    value = performance(loop).disturbance.IAE
+    assert value == pytest.approx(load, rel=6e-5)
 
 
 @pytest.mark.parametrize(

@@ -39,12 +39,13 @@ def summary_html(checks: list[Check]) -> str:
     exact = [found for found in checks if found.reference.exact and not math.isnan(found.difference)]
     worst = max(exact, key=lambda found: abs(found.difference))
     band = "calm" if met == len(checks) else "alarm"
+    largest = signed(f"{abs(worst.difference):.1e}")
     where = escape(f"{worst.reference.what}: {worst.reference.quantity}")
     return (
         f'<div class="strip accuracy {band}" role="status"><div class="first"><b>{met} of {len(checks)}</b>'
         "<span>within their tolerance</span></div>"
-        f"<div><small>Largest difference from an exact number</small><b>{abs(worst.difference):.1e}</b></div>"
-        f"<div><small>at</small><b>{where}</b></div></div>"
+        f"<div><small>Largest difference from an exact number</small><b>{largest}</b></div>"
+        f"<div><small>in</small><b>{where}</b></div></div>"
     )
 
 
@@ -62,17 +63,22 @@ def table(found: list[Check]) -> dict[str, list[str]]:
     """Columns of text."""
     rows = [each.reference for each in found]
     return {
-        "": ["✓" if each.met else "✗ differs" for each in found],
+        "met": ["✓" if each.met else "✗ differs" for each in found],
         "Case": [row.what for row in rows],
         "Quantity": [symbols(row.quantity) for row in rows],
         "Expected": [value_text(row.expected) for row in rows],
         "Here": [value_text(each.ours) for each in found],
-        "Difference": ["" if math.isnan(each.difference) else f"{each.difference:.1e}" for each in found],
-        "Allowed": ["" if isinstance(row.expected, str) else f"{row.tolerance:.0e}" for row in rows],
+        "Difference": ["" if math.isnan(each.difference) else signed(f"{each.difference:.1e}") for each in found],
+        "Allowed": ["" if isinstance(row.expected, str) else signed(f"{row.tolerance:.0e}") for row in rows],
         "Source": [row.source for row in rows],
     }
 
 
 def value_text(value: float | str) -> str:
     """Fifteen digits, as many as a double always has; words as they are."""
-    return value if isinstance(value, str) else f"{value:.15g}"
+    return value if isinstance(value, str) else signed(f"{value:.15g}")
+
+
+def signed(number: str) -> str:
+    """With the minus sign of print in place of a hyphen."""
+    return number.replace("-", "−")

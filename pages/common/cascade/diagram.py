@@ -10,8 +10,9 @@ from html import escape
 
 import streamlit as st
 
+from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller
 from simc_core.notation import latex_factors, number, plain
 from simc_core.plants.plant import Plant
 
@@ -94,10 +95,7 @@ def narrow(study: CascadeStudy, form: str) -> str:
 def settings_lines(controller: Controller, form: str) -> list[tuple[str, float]]:
     """Names and values of the settings in `form`; in the parallel form where there is none."""
     shown = controller.in_form(form if controller.has_form(form) else "parallel")
-    always, optional = (
-        shown.SETTINGS[:2],
-        (*shown.SETTINGS[2:], *(() if isinstance(shown, IController) else ("tau_F",))),
-    )
+    always, optional = shown.SETTINGS[:2], (*shown.SETTINGS[2:], *shown.OPTIONAL[:1])
     return [(name, getattr(shown, name)) for name in (*always, *(name for name in optional if getattr(shown, name)))]
 
 
@@ -154,7 +152,8 @@ def _svg_text(latex: str) -> str:
 
 def _setting(name: str, value: float) -> str:
     letter, index = GREEK.get(name, (name[0], name[-1]))
-    return f"{_indexed(letter, index)} = {escape(number(value))}"
+    unit = state.design_now().sheet.time_unit if letter == "τ" else ""
+    return f"{_indexed(letter, index)} = {escape(number(value))} {unit}".rstrip()
 
 
 def _indexed(letter: str, index: str) -> str:

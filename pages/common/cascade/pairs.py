@@ -1,24 +1,28 @@
-"""The paper's ten pairs, designed now, beside what is printed."""
+"""The published pairs, designed now, beside what is printed."""
+
+from collections.abc import Sequence
+from time import monotonic
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.cascade.widgets import METHOD_NAMES
 from pages.common.parts.symbols import symbols
-from simc_core.cascade.pairs import Judged, judged_pairs
+from simc_core.cascade.pairs import ROWS, Judged, judged
 from simc_core.notation import number, plain
 
 SETTINGS = ("k", "ki", "kd")
 
+REDRAWN = 0.3  # seconds between two drawings of a table that fills
+
 
 def pairs_view() -> None:
     """Two tables, peaks with IAE and settings, and the reason for every difference."""
-    with st.spinner("Designing and judging all pairs"):
-        found = judged_pairs()
     st.markdown(
-        "All pairs of [PSB], designed and judged now on the exact cascade. In brackets the printed number and how far "
-        "ours is from it; without brackets, nothing is printed that we could compare with."
+        "All pairs of [PSB], designed and evaluated now on the exact cascade. In brackets the printed number and how "
+        "far ours is from it; without brackets, nothing is printed that we could compare with."
     )
-    st.dataframe([indices(each) for each in found], hide_index=True, width="stretch", height="content", key="indices")
+    found = _as_they_come()
     st.markdown("\n".join(f"- **{names}**: {symbols(note)}" for note, names in notes(found).items()))
     st.markdown("**Settings**, parallel form $k + k_i/s + k_d s$")
     st.dataframe([settings(each) for each in found], hide_index=True, width="stretch", height="content", key="settings")
@@ -26,6 +30,26 @@ def pairs_view() -> None:
         "[PSB] Prelić, Šekara, Bošković, cascade control by direct synthesis under constraints on robustness. "
         "Printed digits of Msa are those of the constraint."
     )
+
+
+def _as_they_come() -> tuple[Judged, ...]:
+    """All rows; while they are made, the table shows those that are there, and a bar how many are to come."""
+    bar, table = st.empty(), st.empty()
+    found: list[Judged] = []
+    shown = monotonic()
+    for row in ROWS:
+        found.append(judged(row))
+        if monotonic() - shown > REDRAWN and len(found) < len(ROWS):
+            bar.progress(len(found) / len(ROWS), f"{len(found)} of {len(ROWS)} pairs designed and judged")
+            _peaks(table, found)
+            shown = monotonic()
+    bar.empty()
+    _peaks(table, found)
+    return tuple(found)
+
+
+def _peaks(place: DeltaGenerator, found: Sequence[Judged]) -> None:
+    place.dataframe([indices(each) for each in found], hide_index=True, width="stretch", height="content")
 
 
 def notes(found: tuple[Judged, ...]) -> dict[str, str]:

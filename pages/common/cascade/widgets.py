@@ -7,6 +7,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
+from pages.common.parts.units import time_text
 from pages.common.plant.entry import plant_entry
 from pages.common.session import state
 from pages.common.session.design import KINDS, METHODS, Cascade
@@ -17,7 +18,7 @@ from simc_core.controllers.forms import FORMS
 from simc_core.notation import number
 
 BLOCKS = (("Ga", "Ga primary", "primary block Ga"), ("Gb", "Gb secondary", "secondary block Gb"))
-METHOD_NAMES = {"simc": "SIMC", "synthesis": "Synthesis"}
+METHOD_NAMES = {"simc": "SIMC", "synthesis": "Direct synthesis"}
 SPEED_LETTERS = {"simc": "τc", "synthesis": "λ"}
 LOOPS = {"outer": "Outer loop", "inner": "Inner loop"}
 SPEEDS = [10 ** (i / 20) for i in range(-40, 21)]  # of a slider, in units of the loop's own times
@@ -43,7 +44,7 @@ def blocks() -> None:
         "From the literature [PSB]",
         list(titles),
         key="pair",
-        placeholder="The paper's ten pairs",
+        placeholder="Published pairs (Prelić et al.)",
         label_visibility="collapsed",
         help="The ten process pairs of Prelić, Šekara and Bošković, with the designs they print; PI or PID "
         "outside, Ms inside · outside.",
@@ -106,7 +107,7 @@ def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
         key = f"{loop}_by"
         state.set_widget(key, asked)
         st.segmented_control(
-            "set by",
+            "speed from",
             ("auto", "tau_c", "Ms"),
             format_func={"auto": "auto", "tau_c": SPEED_LETTERS[cascade.method], "Ms": "Ms"}.get,
             key=key,
@@ -132,7 +133,7 @@ def _meaning(cascade: Cascade) -> str:
 
 def _outcome(loop: str, asked: str, study: CascadeStudy) -> str:
     """What the choice comes to."""
-    speed = f"${speed_symbol(study.cascade)}$ = {number(study.speeds[loop == 'outer'])}"
+    speed = f"${speed_symbol(study.cascade)}$ = {time_text(study.speeds[loop == 'outer'], state.design_now().sheet)}"
     if not study.sound:
         return speed
     peak = f"$M_s$ = {number(getattr(study, loop).Ms)}"
@@ -163,7 +164,8 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
         )
     design_number(
         name,
-        f"{symbol} of the {loop} loop, exactly",
+        f"{symbol} of the {loop} loop, exact",
+        quantity="time" if asked == "tau_c" else "",
         key=f"{name}_exact",
         place=place,
         under=st.container(),

@@ -3,11 +3,11 @@
 import streamlit as st
 
 from pages.common.parts.formula import fitted
-from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.refusals import explain_refusal, unread
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
 from pages.common.shell import header
-from simc_core import parse_plant
+from simc_core import SimcError, parse_plant
 from simc_core.plants.examples import EXAMPLES, Example
 from simc_core.plants.plant import Plant
 
@@ -29,8 +29,13 @@ def my_plant() -> None:
         "Without a transfer function: the page *Plant* takes gain, dead time and time constants one by one."
     )
     if tune:
-        with explain_refusal():
-            _begin(parse_plant(typed), mine=True)
+        try:
+            plant = parse_plant(typed)
+        except SimcError as error:
+            unread(error)
+        else:
+            with explain_refusal():
+                _begin(plant, mine=True)
 
 
 def cards(examples: tuple[Example, ...]) -> None:

@@ -7,14 +7,13 @@ value stays in use.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import symbols
-from pages.common.parts.units import with_unit
+from pages.common.parts.units import unit_of, with_unit
 from pages.common.session import state
 from pages.common.session.design import PLACES
 from pages.common.session.links import number_text
@@ -80,16 +79,25 @@ def number_field(
             st.error(f"{typed.why}. {in_use}")
 
 
-def design_number(name: str, label: str, *, show: Callable = lambda value: value, key: str = "", **options) -> None:
+def design_number(
+    name: str,
+    label: str,
+    *,
+    show: Callable = lambda value: value,
+    read: Callable = lambda value: value,
+    quantity: str = "",
+    key: str = "",
+    **options,
+) -> None:
     """A number field for the field of the design with this name in design.py.
 
-    show: the number in use, from the design's own, which may be None for a default.
-    **options: of `number_field`.
+    show: the number in use, from the design's own, which may be None for a default.   read: and back.
+    quantity: whose unit the label shows, see unit_of.   **options: of `number_field`.
     """
 
     def check(value: float | None) -> None:
         try:
-            state.with_changes(**{name: value})
+            state.with_changes(**{name: read(value)})
         except SimcError as error:
             raise _named(error, PLACES[name][1], label) from None
 
@@ -97,8 +105,9 @@ def design_number(name: str, label: str, *, show: Callable = lambda value: value
         label,
         show(state.value(name)),
         check,
-        partial(_change, name),
+        lambda value: _change(name, read(value)),
         key or f"widget_{name}",
+        unit=unit_of(quantity, state.design_now().sheet),
         **options,
     )
 

@@ -5,10 +5,12 @@ from contextlib import contextmanager
 
 import streamlit as st
 
-from pages.common.parts.foreign_text import told
+from pages.common.parts.foreign_text import block, told
 from pages.common.parts.symbols import sentence
 from pages.common.session import state
 from simc_core.errors import NotReducible, ParseError, RuleEnds, SimcError
+
+AROUND = 70  # characters of a long text that are shown on either side of the fault
 
 
 @contextmanager
@@ -16,11 +18,23 @@ def explain_refusal() -> Iterator[None]:
     """A SimcError raised inside is told in words, in place of the rest of the page."""
     try:
         yield
-    except ParseError as error:  # it quotes what was typed
-        st.error(f"**This cannot be read.** {told(str(error))}")
+    except ParseError as error:
+        unread(error)
     except NotReducible as error:
         st.error(f"**The half rule does not cover this plant.** {sentence(str(error))}")
     except SimcError as error:
         st.error(f"**This design is not possible.** {sentence(str(error))}")
         if isinstance(error, RuleEnds) and error.change:
             st.button("Do this", key="remedy_refusal", on_click=state.change, kwargs=error.change)
+
+
+def unread(error: SimcError) -> None:
+    """What was typed is no plant: why, and the text with a mark below the fault. It quotes what was typed."""
+    shown = _place_of(error) if isinstance(error, ParseError) else ""
+    st.error(f"**This cannot be read.** {told(str(error))}{shown}")
+
+
+def _place_of(error: ParseError) -> str:
+    """The text, or the part of it that matters, with a mark below the fault."""
+    begin, end = max(error.position - AROUND, 0), error.position + AROUND
+    return block(error.text[begin:end], f"{' ' * (error.position - begin)}^") if error.text.strip() else ""

@@ -54,7 +54,7 @@ def symbols(text: str) -> str:
 
 def spoken(text: str) -> str:
     """The same without formulas, for the name of a button, which a screen reader says as it is written."""
-    return re.sub(r"[$_{}]", "", symbols(text).replace(r"\tau", "τ"))
+    return re.sub(r"[$_{}]", "", symbols(text).replace(r"\tau", "τ").replace(r"\lambda", "λ"))
 
 
 def sentence(text: str) -> str:

@@ -10,14 +10,12 @@ from dataclasses import dataclass, field
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from pages.common.parts.foreign_text import block, told
 from pages.common.parts.number_field import number_field
+from pages.common.parts.refusals import unread
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
 from simc_core import Plant, checks, read_back
-from simc_core.errors import ParseError, SimcError
-
-AROUND = 70  # characters of a long text that are shown on either side of the fault
+from simc_core.errors import SimcError
 
 
 @dataclass(slots=True)
@@ -74,14 +72,8 @@ def outcome(draft: Draft) -> None:
     if draft.error is None:
         st.caption(f"Read: {understood}.")
         return
-    st.error(told(str(draft.error)) + (_place_of(draft.error) if isinstance(draft.error, ParseError) else ""))
-    st.caption(f"The last good plant stays in use until this can be read: {understood}.")
-
-
-def _place_of(error: ParseError) -> str:
-    """The text, or the part of it that matters, with a mark below the fault."""
-    begin, end = max(error.position - AROUND, 0), error.position + AROUND
-    return block(error.text[begin:end], f"{' ' * (error.position - begin)}^") if error.text.strip() else ""
+    unread(draft.error)
+    st.caption(f"Until this can be read, the previous plant is used: {understood}.")
 
 
 def _number(name: str, way: str, draft: Draft, part: str, label: str, check: Callable, places: dict) -> None:

@@ -22,8 +22,8 @@ def facts(plant: Plant) -> None:
     lines = [
         f"**{plant.kind.capitalize()}**",
         f"gain ${symbol} = {latex_number(plant.k)}$, dead time $\\theta = {latex_number(plant.theta)}$",
-        f"poles {_roots(plant.poles)}",
-        f"zeros {_roots(plant.zeros)}",
+        f"poles: {_roots(plant.poles)}",
+        f"zeros: {_roots(plant.zeros)}",
     ]
     st.markdown("  \n".join(lines))
 

@@ -3,12 +3,11 @@
 Pure Python, no streamlit. links.py writes a Design as an address, project.py as a file, state.py keeps one a session.
 """
 
-import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
 from pages.common.session.sheet import Sheet, ratio
-from simc_core import Plant, Scenario, checks
+from simc_core import Actuation, Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
@@ -66,12 +65,49 @@ class Tuning:
         return None if self.tau_c is not None else times_theta(self.speed)
 
 
+ACTUATION = tuple(each.name for each in fields(Actuation))
+IN_LINKS = {"tracking_time": "T_t", "h": "sampling"}  # h alone is taken, by Tuning
+
+
+@dataclass(frozen=True, slots=True)
+class Excitation:
+    """What is asked of the loop in the figures. Metrics are those of unit steps in any case.
+
+    setpoint, disturbance: heights of r and of the load d at the plant input.   load_time: when d begins, None for when
+    the loop has settled.   setpoint_ramp, disturbance_ramp: times in which the heights are reached, 0 for steps.
+    """
+
+    setpoint: float = 1.0
+    disturbance: float = 1.0
+    load_time: float | None = None
+    setpoint_ramp: float = 0.0
+    disturbance_ramp: float = 0.0
+
+    def __post_init__(self):
+        if self.load_time is not None:
+            object.__setattr__(self, "load_time", checks.optional_time("load_time", self.load_time))
+        scenario = self.scenario()  # which checks the others
+        for name in ("setpoint", "disturbance", "setpoint_ramp", "disturbance_ramp"):
+            object.__setattr__(self, name, getattr(scenario, name))
+
+    def scenario(self, **rest) -> Scenario:
+        """The scenario with this and with `rest`, which goes before it."""
+        own = {
+            "setpoint": self.setpoint,
+            "disturbance": self.disturbance,
+            "disturbance_time": self.load_time,
+            "setpoint_ramp": self.setpoint_ramp,
+            "disturbance_ramp": self.disturbance_ramp,
+        }
+        return Scenario(**own | rest)
+
+
 @dataclass(frozen=True, slots=True)
 class Actuator:
-    """How the loop is built, and what is asked of it there: see simc_core Actuation; None for no limit.
+    """How the loop is built: the fields of Actuation, None for no limit.
 
     tracking_time: None for the default.   h: sampling period of the controller as built; Tuning.h is the one that the
-    half rule allows for.   setpoint, disturbance: heights of the steps, which matter where u has limits.
+    half rule allows for.   law: of the sampled controller.
     """
 
     u_min: float | None = None
@@ -80,8 +116,7 @@ class Actuator:
     noise: float = 0.0
     seed: int = 0
     h: float = 0.0
-    setpoint: float = 1.0
-    disturbance: float = 1.0
+    law: str = "backward"
 
     def __post_init__(self):
         put = object.__setattr__
@@ -90,30 +125,19 @@ class Actuator:
                 put(self, name, checks.gain(name, getattr(self, name)))
         if self.tracking_time is not None:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
-        scenario = self.scenario  # which checks what it is made of
-        for name in ("noise", "seed", "h", "setpoint", "disturbance"):
-            put(self, name, getattr(scenario, name))
+        scenario = self.scenario()  # which checks what it is made of
+        for name in ("noise", "seed", "h"):
+            put(self, name, getattr(scenario.actuation, name))
 
-    @property
-    def scenario(self) -> Scenario:
-        """The steps with all of this."""
-        u_min = -math.inf if self.u_min is None else self.u_min
-        u_max = math.inf if self.u_max is None else self.u_max
-        return Scenario(
-            self.setpoint,
-            self.disturbance,
-            u_min=u_min,
-            u_max=u_max,
-            tracking_time=self.tracking_time,
-            noise=self.noise,
-            seed=self.seed,
-            h=self.h,
-        )
+    def scenario(self, excitation: Excitation = Excitation()) -> Scenario:
+        """The excitation with all of this."""
+        given = {name: getattr(self, name) for name in ACTUATION if getattr(self, name) is not None}
+        return excitation.scenario(actuation=Actuation(**given))
 
     @property
     def on(self) -> bool:
         """Whether the loop as built is another one than the linear loop."""
-        return not self.scenario.actuation.linear
+        return not self.scenario().actuation.linear
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,6 +207,7 @@ class Design:
     cascade: Cascade = field(default_factory=Cascade)
     actuator: Actuator = field(default_factory=Actuator)
     facts: StepFacts | None = None
+    excitation: Excitation = field(default_factory=Excitation)
 
     def __post_init__(self):
         one_of("form", self.form, FORMS)
@@ -213,11 +238,12 @@ PLACES: dict[str, tuple[str, str]] = {
     **{f"{name}_{loop}": ("cascade", f"{name}_{loop}") for name in ("tau_c", "Ms", "N") for loop in ("inner", "outer")},
     "b_outer": ("cascade", "b"),
     "filter_outer": ("cascade", "filter_outer"),
-    **{name: ("actuator", name) for name in ("u_min", "u_max", "noise", "seed")},
-    "T_t": ("actuator", "tracking_time"),
-    "sampling": ("actuator", "h"),
-    "r": ("actuator", "setpoint"),
-    "d": ("actuator", "disturbance"),
+    **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
+    "r": ("excitation", "setpoint"),
+    "d": ("excitation", "disturbance"),
+    "d_time": ("excitation", "load_time"),
+    "r_ramp": ("excitation", "setpoint_ramp"),
+    "d_ramp": ("excitation", "disturbance_ramp"),
 }
 
 
@@ -230,9 +256,22 @@ def get(design: Design, name: str):
 def put(design: Design, name: str, value) -> Design:
     """The design with another value of this field. Raises InvalidParameter."""
     record, field_name = PLACES[name]
+    if name == "OP_now":
+        design = replace(design, actuator=_moved(design.actuator, design.sheet.OP_now, value))
     if not record:
         return replace(design, **{field_name: value})
     return replace(design, **{record: replace(getattr(design, record), **{field_name: value})})
+
+
+def _moved(actuator: Actuator, old: float | None, new: float | None) -> Actuator:
+    """Limits of u that stay where they are on the scale of OP when its operating point moves."""
+    if old is None or new is None or old == new:
+        return actuator
+    low, high = (None if u is None else u + old - new for u in (actuator.u_min, actuator.u_max))
+    if (low or 0.0) > 0 or (high or 0.0) < 0:
+        ends = "no limit" if low is None else f"{low + new:g}", "no limit" if high is None else f"{high + new:g}"
+        raise InvalidParameter(f"OP_now must be within the limits of the output, {' to '.join(ends)}, got {new:g}")
+    return replace(actuator, u_min=low, u_max=high)
 
 
 def in_time_unit(design: Design, unit: str) -> Design:
@@ -256,6 +295,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
         now=None if design.now is None else design.now.rescaled(time),
         pins=tuple(_in_time(pin, time) if isinstance(pin, Tuning) else pin.rescaled(time) for pin in design.pins),
         actuator=_in_time(design.actuator, time),
+        excitation=_in_time(design.excitation, time),
         cascade=replace(
             _in_time(design.cascade, time),
             primary=primary,
@@ -266,7 +306,10 @@ def in_time_unit(design: Design, unit: str) -> Design:
     )
 
 
-TIMES = ("tau_c", "h", "tracking_time", "tau_c_inner", "tau_c_outer")
+TIMES = (
+    *("tau_c", "h", "tracking_time", "tau_c_inner", "tau_c_outer"),
+    *("load_time", "setpoint_ramp", "disturbance_ramp"),
+)
 
 
 def _rescaled(plant: Plant, facts: StepFacts | None, time: Fraction) -> tuple[Plant, StepFacts | None]:

@@ -6,7 +6,8 @@
     pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
-    u_min, u_max, T_t, noise, seed, sampling, r, d   the loop as built, only where it is not the default
+    u_min, u_max, T_t, noise, seed, sampling, law    the loop as built, only where it is not the default
+    r, d, d_time, r_ramp, d_ramp                     set point and load in the figures
 
 Numbers are written with all their digits, so that a link opens the very same design.
 """
@@ -30,7 +31,7 @@ FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "
 TEXTS = (
     *("rules", "form", "speed", "controller"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
-    *("method", "inner", "outer", "filter_outer"),
+    *("method", "inner", "outer", "filter_outer", "law"),
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")
@@ -108,7 +109,7 @@ def _changed(design: Design, name: str, text: str) -> Design:
     if len(text) > LONGEST_VALUE:
         raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
     if name not in PLACES:
-        raise SimcError("there is no parameter of this name")
+        raise SimcError("no parameter has this name")
     return put(design, name, _read(name, text))
 
 
@@ -146,9 +147,7 @@ def settings_text(controller: Controller | None) -> str:
     if controller is None:
         return ""
     form = next(name for name, kind in FORM_NAMES.items() if isinstance(controller, kind))
-    values = list(controller.settings.values())
-    if not isinstance(controller, IController):
-        values += [controller.tau_F, controller.b, controller.c]
+    values = [getattr(controller, name) for name in (*controller.SETTINGS, *controller.OPTIONAL)]
     return "~".join([form, *map(number_text, values)])
 
 
@@ -158,7 +157,7 @@ def settings_of(text: str) -> Controller:
     if form not in FORM_NAMES:
         raise SimcError(f"settings begin with one of {', '.join(FORM_NAMES)}, got {form[:20]}")
     kind = FORM_NAMES[form]
-    wanted = len(kind.SETTINGS) + (0 if kind is IController else 3)
+    wanted = len(kind.SETTINGS) + len(kind.OPTIONAL)
     if len(values) != wanted:
         raise SimcError(f"settings in {form} form have {wanted} values separated by ~, got {len(values)}")
     return kind(*(_read("settings", value) for value in values))

@@ -67,6 +67,19 @@ class Sheet:
         return (self.PV_high - self.PV_low) / (self.OP_high - self.OP_low)
 
     @property
+    def u_name(self) -> str:
+        """What the input is called where its values are told: OP on its own scale, else u, a deviation."""
+        return "u" if self.OP_now is None else "OP"
+
+    def on_scale(self, u: float) -> float:
+        """A deviation u as a value of OP; as it is where the operating point is not known."""
+        return u if self.OP_now is None else float(f"{u + self.OP_now:.12g}")
+
+    def off_scale(self, value: float) -> float:
+        """The deviation u that a value of OP is."""
+        return value - (self.OP_now or 0.0)
+
+    @property
     def named(self) -> bool:
         """Whether anything has been filled in."""
         return self != Sheet()

@@ -81,12 +81,12 @@ def _notices() -> None:
         return
     lines = "\n".join(f"- {exact(notice.given)} was ignored: {told(notice.why)}" for notice in ignored)
     with st.container(horizontal=True, vertical_alignment="center"):
-        st.warning(f"Part of the link could not be used, the rest was.\n\n{lines}", width="stretch")
+        st.warning(f"These parts of the link were not understood; the rest was taken.\n\n{lines}", width="stretch")
         st.button("Dismiss", on_click=state.dismiss_ignored)
 
 
 def _take_along() -> None:
-    st.caption("Link to this page and design")
+    st.caption("Share link: this page and design")
     copyable(state.address(), "address_text")
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")

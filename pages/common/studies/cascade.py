@@ -9,16 +9,17 @@ from simc_core.cascade.design import SEPARATE, CascadeDesign, simc_cascade, sing
 from simc_core.cascade.pairs import PairRow
 from simc_core.cascade.verdict import CascadeVerdict, cascade_verdict
 from simc_core.certificate.verdict import NestedStability, stability
-from simc_core.controllers.forms import IController
 from simc_core.errors import SimcError
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.nested import CascadeLoop
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import performance
+from simc_core.notation import rounded_up
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import NestedResponse, Scenario, simulate
+from simc_core.studies.remedies import SLOWER
 
 USUAL_MS = 2.0  # what direct synthesis aims at where nothing is asked for
 KEPT = 16  # cascades of all sessions; direct synthesis searches 0.05 to 0.2 s, and every click on the page asks again
@@ -124,6 +125,23 @@ def designed(cascade: Cascade) -> CascadeDesign:
     )
 
 
+def sounder(study: CascadeStudy) -> dict[str, float]:
+    """Larger tau_c (or lambda) that were tried and give a sound cascade: of the loop to blame, else of both; or {}."""
+    inner, outer = study.speeds
+    inside = study.stability.inner.verdict != "stable"
+    blamed = {"tau_c_inner": inner} if inside else {"tau_c_outer": outer}
+    for loops in (blamed, {"tau_c_inner": inner, "tau_c_outer": outer}):
+        for factor in SLOWER:
+            change = {name: rounded_up(factor * speed) for name, speed in loops.items()}
+            try:
+                found = designed(replace(study.cascade, **change))
+            except SimcError:
+                continue
+            if stability(found.loop).sound:
+                return change
+    return {}
+
+
 def time_responses(study: CascadeStudy) -> tuple[tuple[str, NestedResponse], ...]:
     """Steps of r, then of d1, then of d2; of the single loop at the same instants, where it is stable."""
     first = simulate(study.loop, Scenario())
@@ -182,7 +200,7 @@ def speed_symbol(cascade: Cascade) -> str:
 def scale(cascade: Cascade, loop: str) -> float:
     """A time to measure the speed of a loop by: dead times and time constants of its blocks together."""
     blocks = [cascade.secondary] if loop == "inner" else [cascade.primary, cascade.secondary]
-    return sum(b.theta + sum(map(abs, b.lags)) + sum(tau for tau, _ in b.lag_pairs) for b in blocks) or 1.0
+    return sum(block.total_time for block in blocks) or 1.0
 
 
 def _performance(loop: CascadeLoop) -> tuple[NestedPerformance | None, str]:
@@ -198,8 +216,7 @@ def _single(cascade: Cascade) -> tuple[SingleLoop | None, str]:
         loop = single_loop(cascade.primary, cascade.secondary, Ms=cascade.Ms_outer or USUAL_MS)
     except SimcError as error:
         return None, str(error)
-    if not isinstance(loop.outer, IController):
-        loop = replace(loop, outer=replace(loop.outer, b=cascade.b))
+    loop = replace(loop, outer=loop.outer.with_weight(cascade.b))
     judged = margins(loop.outer_loop)
     if not judged.stable:
         return SingleLoop(loop, None, math.nan), "it is not stable"

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from pages.common.session.design import Design, Tuning
+from pages.common.session.design import Design, Excitation, Tuning
 from simc_core.controllers.forms import Controller
 from simc_core.errors import NotStable, SimcError
 from simc_core.loops.frequency_grid import omega_grid
@@ -19,7 +19,8 @@ from simc_core.plants.plant import Plant
 from simc_core.reduction.records import Reduction
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
-from simc_core.simulation import Scenario, TimeResponse, simulate
+from simc_core.simulation import TimeResponse, simulate
+from simc_core.simulation.horizon import times
 from simc_core.studies.tuned import Tuned, tuned
 
 UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
@@ -100,13 +101,11 @@ def _measured(loop: Loop) -> Performance:
         return Performance(UNKNOWN, UNKNOWN)
 
 
-def time_responses(studies: list[Study]) -> list[TimeResponse]:
-    """Set-point step, then load step, at the same instants for all; the horizon suits the first study."""
-    first = simulate(studies[0].loop, Scenario())
-    t_end = float(first.t[-1])
-    begins = float(first.t[first.d != 0][0])
-    rest = [simulate(each.loop, Scenario(disturbance_time=begins, t_end=t_end)) for each in studies[1:]]
-    return [first, *rest]
+def time_responses(studies: list[Study], excitation: Excitation) -> list[TimeResponse]:
+    """Set point and load, begun and ended at the same instants for all; the horizon suits the first study."""
+    begins, t_end = times(studies[0].loop, excitation.scenario())
+    asked = excitation.scenario(disturbance_time=begins, t_end=t_end)
+    return [simulate(each.loop, asked) for each in studies]
 
 
 def common_grid(studies: list[Study]) -> np.ndarray:

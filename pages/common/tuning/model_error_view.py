@@ -7,19 +7,25 @@ import streamlit as st
 
 from pages.common.parts.panel import show
 from pages.common.parts.symbols import symbols
+from pages.common.parts.units import time_text
+from pages.common.session import state
+from pages.common.session.design import Excitation
+from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from simc_core.figures.robustness import band_figure, bundle_figure
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import Loop
 from simc_core.notation import number
 from simc_core.plants.models import UnstableDelay
-from simc_core.simulation import Scenario, TimeResponse, simulate
+from simc_core.simulation import simulate
+from simc_core.simulation.horizon import times
 from simc_core.studies.plant_family import Robustness, robustness
 
 HEIGHT = 420  # px
+POINTS = 400
 
 
-def model_error_view(study: Study) -> None:
+def model_error_view(study: Study, excitation: Excitation) -> None:
     """A change in per cent to choose; worst Ms with its corner, exact limits, and both bundles."""
     percent = st.slider(
         "Change of k, θ and τ₁, each up or down by",
@@ -33,12 +39,14 @@ def model_error_view(study: Study) -> None:
     )
     found = robustness(study.loop, percent / 100)
     st.markdown(summary(study, found, percent))
-    nominal = simulate(study.loop, Scenario())
-    family = [_response(case.loop, nominal) for case in (*found.corners, *found.samples)]
+    begins, t_end = times(study.loop, excitation.scenario())
+    nominal = simulate(study.loop, excitation.scenario(disturbance_time=begins, t_end=t_end))
+    asked = excitation.scenario(disturbance_time=begins, t_end=t_end, t=np.linspace(0.0, t_end, POINTS))
+    family = [simulate(case.loop, asked) for case in (*found.corners, *found.samples)]
     omega = omega_grid([study.loop.L])
     left, right = st.columns(2, gap="small")
     with left:
-        figure = bundle_figure(nominal, family, _response(found.worst.loop, nominal), HEIGHT)
+        figure = bundle_figure(nominal, family, simulate(found.worst.loop, asked), HEIGHT)
         show(figure, "bundle", "Outputs y of the changed plants")
     with right:
         show(
@@ -60,20 +68,15 @@ def summary(study: Study, found: Robustness, percent: int) -> str:
             f"among them {symbols(worst.name)}.{remedy}"
         )
     if study.stable:
-        lines.append(limits(study.loop, found))
+        lines.append(limits(study.loop, found, state.design_now().sheet))
     return "  \n".join(lines)
 
 
-def limits(loop: Loop, found: Robustness) -> str:
+def limits(loop: Loop, found: Robustness, sheet: Sheet) -> str:
     """The exact largest changes of k and of theta, each alone."""
-    high = "any increase" if math.isinf(found.k_high) else f"up to × {number(found.k_high)}"
-    low = "any decrease" if found.k_low == 0 else f"down to × {number(found.k_low)}"
-    more = "any addition" if math.isinf(found.theta_more) else f"+ {number(found.theta_more)}"
+    high = "any higher" if math.isinf(found.k_high) else f"up to {number(found.k_high)} times"
+    low = "any lower" if found.k_low == 0 else f"down to {number(found.k_low)} times"
+    more = "any longer" if math.isinf(found.theta_more) else f"up to {time_text(found.theta_more, sheet)} longer"
     theta = loop.plant.theta
     share = f" ({100 * found.theta_more / theta:.3g} %)" if theta and math.isfinite(found.theta_more) else ""
-    return f"Alone, exactly: $k$ {high} and {low}; $\\theta$ {more}{share}."
-
-
-def _response(loop: Loop, like: TimeResponse) -> TimeResponse:
-    t = np.linspace(0.0, float(like.t[-1]), 400)
-    return simulate(loop, Scenario(disturbance_time=float(like.t[like.d != 0][0]), t_end=float(t[-1]), t=t))
+    return f"One at a time, exact: gain {high}, or {low}; dead time {more}{share}."

@@ -1,8 +1,7 @@
 """The figures of the tuning page: four panels side by side, on a narrow screen one at a time; Bode beside them."""
 
-import streamlit as st
-
 from pages.common.parts.panel import Panel, field, show
+from pages.common.session.design import Excitation
 from pages.common.studies.single import Study, common_grid, frequency_responses, time_responses
 from simc_core.figures import (
     input_figure,
@@ -12,17 +11,16 @@ from simc_core.figures import (
     sensitivity_figure,
 )
 from simc_core.figures.curves import bode_curve
-from simc_core.notation import number
 from simc_core.sensitivity.margins import crossings
 
 HEIGHT, TALL = 250, 480  # px
 
 
-def panels(studies: list[tuple[str, Study]]) -> None:
+def panels(studies: list[tuple[str, Study]], excitation: Excitation) -> None:
     """y, u, Nyquist, |S| and |T| of the present design (first) and the pinned ones."""
     names, records = [name for name, _ in studies], [each for _, each in studies]
     present = records[0]
-    times = list(zip(names, time_responses(records), strict=True))
+    times = list(zip(names, time_responses(records, excitation), strict=True))
     frequencies = list(zip(names, frequency_responses(records), strict=True))
     y, u = output_figure(times, HEIGHT, present.stable), input_figure(times, HEIGHT, present.stable)
     nyquist = nyquist_figure(frequencies, present.margins, HEIGHT)
@@ -34,11 +32,6 @@ def panels(studies: list[tuple[str, Study]]) -> None:
             Panel("nyquist", "Nyquist", "Nyquist curve of L with Ms and Mt circles", nyquist),
             Panel("sensitivity", "|S| |T|", "Magnitude of S and T over frequency", sensitivity),
         )
-    )
-    start = times[0][1].t[times[0][1].d != 0][0]
-    st.caption(
-        f"Unit step of the set point at t = 0, unit step of the load at the plant input at t = {number(start)}; "
-        "time in the unit of your time constants. The loop is closed round the full plant."
     )
 
 

@@ -185,10 +185,7 @@ class Reader:
         if token.kind == "list":
             raise self.fault("a list of coefficients stands alone: write tf([2], [10 1]), or / or * before it")
         if slashed and token.kind not in EXPONENTIALS:
-            raise self.fault(
-                "after '/' it is not clear how far the denominator goes: write 1/((s+1)(2s+1)) if this belongs "
-                "to it, or put * before what does not"
-            )
+            raise self.fault("the denominator is unclear: write 1/((s+1)(2s+1)) or (1/(s+1))*(2s+1)")
 
     def is_power_of_ten(self) -> bool:
         """Whether the present number is 10^3 or 1e3 after another number."""
@@ -261,7 +258,7 @@ class Reader:
                 return times(MINUS_ONE, self.power())
             case "sign" if token.text in CLOSING.values():
                 raise self.fault(f"'{token.text}' closes a bracket that was not opened", token.at)
-        raise self.fault(f"a number, s, exp or a bracket is expected here, got {_named(token)}", token.at)
+        raise self.fault(f"a number, s, exp or a bracket was expected here; found {_named(token)}", token.at)
 
     def names_value(self, token: Token) -> Value:
         name = bare(token.text)

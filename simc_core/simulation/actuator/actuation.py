@@ -19,7 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers.forms import Controller
+from simc_core.controllers.discrete import known_law
+from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.one_step import Linear, Step
@@ -40,7 +41,8 @@ class Actuation:
     u_min <= u <= u_max, infinite where there is no limit; u = 0, the state of rest, must be within.
     tracking_time: T_t, None for the default, math.inf for no anti-windup; shorter than a step of the controller it
     acts like that step.   noise: standard deviation of the measurement noise, a new value each step of the controller.
-    seed: of the noise.   h: sampling period of the controller, 0 if continuous.
+    seed: of the noise.   h: sampling period of the controller, 0 if continuous.   law: of a sampled controller, one of
+    controllers.discrete.LAWS.
     """
 
     u_min: float = -math.inf
@@ -49,6 +51,7 @@ class Actuation:
     noise: float = 0.0
     seed: int = 0
     h: float = 0.0
+    law: str = "backward"
 
     def __post_init__(self):
         put = object.__setattr__
@@ -56,16 +59,13 @@ class Actuation:
             value = getattr(self, name)
             bound = none if value == none else checks.real(name, value, -checks.LARGEST_GAIN, checks.LARGEST_GAIN)
             put(self, name, float(bound))
-        if not self.u_min <= 0 <= self.u_max or self.u_min == self.u_max:
-            raise InvalidParameter(
-                "u_min <= 0 <= u_max and u_min < u_max must hold, since the loop starts from rest at u = 0, "
-                f"got {self.u_min:g} and {self.u_max:g}"
-            )
+        rest_within(self.u_min, self.u_max)
         if self.tracking_time is not None and self.tracking_time != math.inf:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
         put(self, "noise", checks.real("noise", self.noise, 0.0, checks.LARGEST_GAIN))
         put(self, "seed", checks.whole("seed", self.seed, 0, 2**32 - 1))
         put(self, "h", checks.optional_time("h", self.h))
+        known_law(self.law)
 
     @property
     def limited(self) -> bool:
@@ -76,6 +76,16 @@ class Actuation:
     def linear(self) -> bool:
         """Whether the exact engine of linear loops does the same."""
         return not self.limited and self.noise == 0 and self.h == 0
+
+
+def rest_within(u_min: float, u_max: float) -> None:
+    """Raises InvalidParameter unless u = 0, where the loop is at rest, is within the limits, and something else too."""
+    if u_min > 0:
+        raise InvalidParameter(f"u_min must be <= 0, where the loop is at rest, got {u_min:g}")
+    if u_max < 0:
+        raise InvalidParameter(f"u_max must be >= 0, where the loop is at rest, got {u_max:g}")
+    if u_min == u_max:
+        raise InvalidParameter(f"u_max must be > u_min = {u_min:g}, got {u_max:g}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,24 +152,11 @@ def stepped(dt: float, y: np.ndarray, v: np.ndarray, u: np.ndarray, h: float) ->
     return Stepped(dt * np.arange(N + 1), y[:N], v[:N], u[:N], h)
 
 
-def tracking_time(loop: Loop, actuation: Actuation) -> float:
+def tracking_time_in_use(loop: Loop, actuation: Actuation) -> float:
     """T_t: as given, else the usual one."""
     if actuation.tracking_time is not None:
         return actuation.tracking_time
-    return usual_tracking_time(loop.controller, loop.plant.k)
-
-
-def usual_tracking_time(controller: Controller, k: float) -> float:
-    """sqrt(tau_I tau_D), or tau_I without derivative; for pure I action 1/|K_I k|, k the gain that it controls.
-
-    Infinite without integral action. In the time unit of the controller, whichever that is.
-    """
-    form = controller.to_parallel()
-    if form.Ki == 0:
-        return math.inf
-    if form.Kd * form.Ki > 0:
-        return math.sqrt(form.Kd / form.Ki)
-    return abs(form.Kp / form.Ki) if form.Kp else 1 / abs(form.Ki * k)
+    return tracking_time(loop.controller, loop.plant.k, loop.plant.integrators)
 
 
 class Driven:

@@ -19,9 +19,10 @@ import numpy as np
 from scipy.signal import lfilter
 
 from simc_core.algebra.state_space import chain
-from simc_core.controllers.forms import ParallelPid
+from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
+from simc_core.loops.well_posed import require_well_posed
 from simc_core.simulation.actuator.actuation import (
     OF_PLANT,
     STEPS,
@@ -33,11 +34,10 @@ from simc_core.simulation.actuator.actuation import (
     Stepped,
     affordable,
     stepped,
-    tracking_time,
+    tracking_time_in_use,
 )
-from simc_core.simulation.actuator.one_step import Linear
+from simc_core.simulation.actuator.one_step import Linear, whole_steps
 from simc_core.simulation.actuator.sampled import sampled
-from simc_core.simulation.one_delay.march import WELL_POSED
 
 # Columns of z behind x. ASKED: u at the start and the end of the step before if there were no limits, GIVEN: as it is.
 # ASKED1 and INTEGRAL lack what u of that step adds to them.   ASK, RATE: see _known, RATE over the whole step.
@@ -58,12 +58,12 @@ def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Stepped:
 
 def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs) -> Stepped:
     system, theta = _measured(loop, form), loop.plant.theta
-    m = max(1, math.ceil(theta * STEPS / inputs.t_end)) if theta else 0
+    m = whole_steps(theta * STEPS / inputs.t_end) if theta else 0
     dt = theta / m if m else inputs.t_end / STEPS
     N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
     m, n = min(m, N), len(system.B)
     plant = Driven(system, system.ramp(dt), dt, theta, inputs)
-    law = _law(plant, form.Ki, dt / 2, tracking_time(loop, actuation), at_once=m == 0)
+    law = _law(plant, form.Ki, dt / 2, tracking_time_in_use(loop, actuation), at_once=m == 0)
     z = plant.rows(N + m, n + COLUMNS)
     ask, rate = _known(form, actuation, inputs, dt, N)
     z[:N, n + ASK0 : n + RATE], z[:N, n + RATE] = ask, dt / 2 * rate.sum(axis=1)
@@ -114,8 +114,7 @@ def _law(plant: Driven, Ki: float, half: float, T_t: float, at_once: bool) -> _L
     system, (_, G1, G2), pull, J = plant.system, plant.step, min(half / T_t, 1.0), half * Ki
     # What u0 adds to (y, p, i) at once and at the end, u1 at the end; what both add to I1.
     jump, first, last = at_once * system.D, at_once * (system.C @ G1), at_once * (system.C @ G2 + system.D)
-    if abs(1 + jump[1]) < WELL_POSED:
-        raise InvalidParameter("1 + L(inf) must not be zero in a loop without dead time, got 0: u is not defined")
+    require_well_posed(1 + jump[1])
     of_u0 = (pull * (1 + jump[1] + first[1]) - J * (jump[2] + first[2])) / (1 + pull)
     of_u1 = (pull * (1 + last[1]) - J * last[2]) / (1 + pull)
     n = len(G1)
@@ -177,8 +176,8 @@ def _measured(loop: Loop, form: ParallelPid) -> Linear:
         outputs = np.array([[*C, 0.0], [*(rate * C), form.Kp - rate], [*np.zeros(n), 1.0]])
         return Linear(wide, np.array([*B, D / form.tau_F]), outputs, np.array([D, rate * D, 0.0]))
     if form.Kd and D:
-        raise InvalidParameter("tau_F must be > 0 for derivative action on a plant without inertia, got 0")
+        raise InvalidParameter(needs_filter("on a plant whose response starts with a jump"))
     if form.Kd and form.c:
-        raise InvalidParameter("tau_F must be > 0 where the derivative acts on the set point (c > 0), got 0")
+        raise InvalidParameter(needs_filter("on a set-point step (c > 0)"))
     slope, jump = C @ A, C @ B
     return Linear(A, B, np.array([C, form.Kp * C + form.Kd * slope, C]), np.array([D, form.Kp * D + form.Kd * jump, D]))

@@ -11,12 +11,19 @@ two ways:
 so jumps of the input stay jumps of the output.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import expm
 
 Step = tuple[np.ndarray, np.ndarray, np.ndarray]  # Phi, G1, G2
+ON_GRID = 1e-6  # of a step; what is nearer than this to an instant of the grid is on it
+
+
+def whole_steps(steps: float) -> int:
+    """The least whole number >= steps and >= 1; what rounding adds to a whole number makes no further step."""
+    return max(1, math.ceil(steps - ON_GRID))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

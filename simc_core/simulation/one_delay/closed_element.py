@@ -4,9 +4,9 @@
     f = Kp b rF + Ki int rF + Kd c rF'                          rF: the step of r through the filter,
                                                                 r (1 - e^{-t/tau_F}) + rF_0 e^{-t/tau_F}
 
-With measured.py's maps p, p', int p are matrices times (w at the nodes, x_0), so the element is linear in w and
+With process_maps.py's maps p, p', int p are matrices times (w at the nodes, x_0), so the element is linear in w and
 
-    S = (x_0, xi, r, d, rF_0)   (y, z at the nodes, their coefficients for pace.py, S at the end) = G (w, S)
+    x = (x_0, xi, r, d, rF_0)   (y, z at the nodes, their coefficients for step_control.py, x at the end) = G (w, x)
 
 r and d are the steps themselves, which stay; rF_0 is there only with a filter.
 """
@@ -18,11 +18,13 @@ import numpy as np
 
 from simc_core.controllers.forms import ParallelPid
 from simc_core.simulation.collocation.elements import TO_CHEBYSHEV, P
-from simc_core.simulation.one_delay.element_sizes import EYE, Elements, Levels
+from simc_core.simulation.one_delay.element_sizes import EYE, Elements, ElementSizes
 from simc_core.simulation.one_delay.process_maps import SIGNALS
 from simc_core.simulation.one_delay.step_control import MIDDLE
 
-SPECTRUM = TO_CHEBYSHEV[[MIDDLE - 1, MIDDLE, P - 2, P - 1]]  # of nodal values: the coefficients that pace.py goes by
+SPECTRUM = TO_CHEBYSHEV[
+    [MIDDLE - 1, MIDDLE, P - 2, P - 1]
+]  # of nodal values: the coefficients that step_control.py goes by
 Y, Z, END = slice(P), slice(P, 2 * P), 2 * P + 8  # rows of G; in between two middle ones of y and z, two last ones
 PARTS = np.array([0, P, 2 * P, 2 * P + 2, 2 * P + 4, 2 * P + 6])
 
@@ -30,7 +32,7 @@ PARTS = np.array([0, P, 2 * P, 2 * P + 2, 2 * P + 4, 2 * P + 6])
 class OnLevel(NamedTuple):
     """Of n tunings. G: (n, END + size, P + size), see the module docstring.
 
-    one_less, begun: 1 - B Z and B z_S, (n, P, P) and (n, P, size), for w = H + B z with z = Z w + z_S S.
+    one_less, begun: 1 - B Z and B z_x, (n, P, P) and (n, P, size), for w = H + B z with z = Z w + z_x x.
     """
 
     G: np.ndarray
@@ -38,23 +40,23 @@ class OnLevel(NamedTuple):
     begun: np.ndarray
 
 
-class Law:
+class ClosedElements:
     """The controllers of n tunings with one tau_F, and what each level needs of them, made when it is needed."""
 
-    def __init__(self, forms: Sequence[ParallelPid], levels: Levels):
+    def __init__(self, forms: Sequence[ParallelPid], levels: ElementSizes):
         self.levels, self.tau_F = levels, forms[0].tau_F
         values = np.array([(form.Kp, form.Kd, form.Ki, form.Kp * form.b, form.Kd * form.c) for form in forms])
         self.gains = values[:, : SIGNALS - 1]
         self.Ki, self.ahead, self.kick = values[:, 2:3], values[:, 3:4], values[:, 4:]
-        self.size = levels.chain.n + 3 + (self.tau_F > 0)  # of S
+        self.size = levels.chain.n + 3 + (self.tau_F > 0)  # of x
         self._made: dict[int, OnLevel] = {}
 
     def start(self) -> np.ndarray:
-        """S at t = 0 for unit steps of r and of d, (n, size, 2)."""
+        """x at t = 0 for unit steps of r and of d, (n, size, 2)."""
         n = self.levels.chain.n
-        S = np.zeros((len(self.gains), self.size, 2))
-        S[:, n + 1, 0] = S[:, n + 2, 1] = 1.0
-        return S
+        x = np.zeros((len(self.gains), self.size, 2))
+        x[:, n + 1, 0] = x[:, n + 2, 1] = 1.0
+        return x
 
     def __getitem__(self, level: int) -> OnLevel:
         if level not in self._made:

@@ -1,6 +1,6 @@
 """Elements of theta 2^level and the mesh of one interval, with the interpolations that a dead time needs; all cached.
 
-What a plant does on an element does not depend on the tuning (measured.py), and where the nodes of one element meet
+What a plant does on an element does not depend on the tuning (process_maps.py), and where the nodes of one element meet
 those of another depends on their levels alone. Without dead time the unit is the plant's fastest time constant.
 """
 
@@ -13,7 +13,7 @@ from numpy.polynomial import chebyshev
 
 from simc_core.plants.plant import Plant
 from simc_core.simulation.collocation.elements import NODES, TO_CHEBYSHEV, P, mesh
-from simc_core.simulation.one_delay.process_maps import Measured
+from simc_core.simulation.one_delay.process_maps import ProcessMaps
 
 AHEAD, MORE = 8, 4  # levels made at once: at first, and when these do not reach
 EYE = np.eye(P)
@@ -34,13 +34,13 @@ class Elements(NamedTuple):
     ends: np.ndarray
 
 
-class Levels:
+class ElementSizes:
     """Of one plant behind one filter. mesh: levels of the elements of one interval, short at its start.
 
     finer: how often these are halved.
     """
 
-    def __init__(self, chain: Measured, finer: int):
+    def __init__(self, chain: ProcessMaps, finer: int):
         self.chain, self.theta = chain, chain.theta
         size = np.abs(chain.modes)
         self.unit = chain.theta or float(1 / np.max(size) if size.any() else 1.0)
@@ -82,9 +82,9 @@ class Levels:
 
 
 @lru_cache(maxsize=64)
-def levels(plant: Plant, tau_F: float, derivative: bool, finer: int = 0) -> Levels:
-    """Raises InvalidParameter as Measured does."""
-    return Levels(Measured(plant, tau_F, derivative), finer)
+def levels(plant: Plant, tau_F: float, derivative: bool, finer: int = 0) -> ElementSizes:
+    """Raises InvalidParameter as ProcessMaps does."""
+    return ElementSizes(ProcessMaps(plant, tau_F, derivative), finer)
 
 
 @lru_cache(maxsize=128)

@@ -1,19 +1,19 @@
 """Unit step responses of one plant under many controllers at once: the method of steps on elements that grow.
 
-    w(t) = z(t - theta)      z = u + d from w: the plant's maps (measured.py, levels.py), the controllers' law (law.py)
+    w(t) = z(t - theta)      z = u + d from w: maps of the plant (process_maps.py), the law of the controllers
 
 The maps are the same for all tunings of a plant.
 
 Intervals. Over [k theta, (k+1) theta] w is known from the interval before. Jumps and kinks sit at k theta, on edges,
 and cost no accuracy; a mesh that is fine at its start holds the fast modes that they excite.
 Elements. A jump comes back smoother by the relative degree of L each time. Once it is smooth, elements of length
-theta 2^level take over, each tuning at its out pace. The part of w beyond theta is then the element itself:
+theta 2^level take over, each tuning at its own pace. The part of w beyond theta is then the element itself:
 
-    w = H + B z,   z = Z w + z_S S     =>     w = (1 - B Z)^-1 (H + B z_S S)
+    w = H + B z,   z = Z w + z_x x     =>     w = (1 - B Z)^-1 (H + B z_x x)
 
 with H from the element before and B the interpolation at t - theta. Without dead time B = 1, H = 0. What an element
-does to w and to the state S of loop and inputs is one matrix, see law.py.
-How long an element may be, see pace.py. A horizon of 10^6 dead times costs a few elements more than one of ten.
+does to w and to the state x of loop and inputs is one matrix, see closed_element.py.
+How long an element may be, see step_control.py. A horizon of 10^6 dead times costs a few elements more than one of ten.
 """
 
 import math
@@ -23,39 +23,52 @@ from typing import NoReturn
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
-from simc_core.controllers.forms import ParallelPid
+from simc_core.certificate.poles import dominant_poles
+from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
+from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.simulation.collocation.elements import P
-from simc_core.simulation.one_delay.closed_element import END, PARTS, Law, Z
+from simc_core.simulation.one_delay.closed_element import END, PARTS, ClosedElements, Z
 from simc_core.simulation.one_delay.element_sizes import levels
-from simc_core.simulation.one_delay.limits import LOOK, MOST_HELD, MOST_TO_END, MOST_TO_REST, oscillation, together
-from simc_core.simulation.one_delay.step_control import TAIL, Pace
-from simc_core.simulation.one_delay.unit_responses import Course, Stretch, course
+from simc_core.simulation.one_delay.limits import (
+    LIKELY,
+    LOOK,
+    MOST_HELD,
+    MOST_OF_ALL,
+    MOST_TO_END,
+    MOST_TO_REST,
+    oscillation,
+    together,
+    too_much,
+)
+from simc_core.simulation.one_delay.step_control import GONE, REST, TAIL, StepControl
+from simc_core.simulation.one_delay.unit_responses import Batch, UnitResponses, course
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 LARGEST = 1e150  # an unstable response is cut off here
-WELL_POSED = 1e-12
 
 
-def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most_to_rest: int = MOST_TO_REST) -> Course:
+def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most: float | None = None) -> UnitResponses:
     """The first tunings, as many as limits.py lets march together, from rest to t_end, or to their rest (t_end = None,
     for stable loops).
 
-    forms: controllers with one tau_F.   most_to_rest: elements of one tuning, after which it is left where it is.
+    forms: controllers with one tau_F.   most: elements of one tuning, after which it is left where it is on its way to
+    rest; on the way to t_end what all may take on average.
     Raises InvalidParameter: derivative action without filter where y or r may jump; an ill-posed loop without dead
     time; a t_end that needs more than MOST_TO_END elements.
     """
     _check(plant, forms)
+    most = most or (MOST_TO_REST if t_end is None else MOST_OF_ALL)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for finer in range(FINEST + 1):
-            walk = _Walk(plant, forms, t_end, finer, most_to_rest)
-            if walk.arrives():
+            marching = _March(plant, forms, t_end, finer, most)
+            if marching.arrives():
                 break
-    return course(walk.stretches, [pace.at_rest for pace in walk.paces[: walk.n_left]])
+    return course(marching.batches, [control.at_rest for control in marching.controls[: marching.n_left]])
 
 
 def final_values(plant: Plant, form: ParallelPid) -> np.ndarray:
@@ -71,26 +84,25 @@ def final_values(plant: Plant, form: ParallelPid) -> np.ndarray:
 def _check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
     for form in forms:
         if form.Kd and form.c and not form.tau_F:
-            raise InvalidParameter(
-                f"tau_F must be > 0 where the derivative acts on the set point (c > 0), got {form.tau_F:g}"
-            )
+            raise InvalidParameter(needs_filter("on a set-point step (c > 0)"))
         if not plant.theta:
             L = plant.factored * form.factored
-            if L.relative_degree == 0 and abs(1 + FactoredResponse(L).at_infinity.gain) < WELL_POSED:
-                raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: u is not defined")
+            if L.relative_degree == 0:
+                require_well_posed(1 + FactoredResponse(L).at_infinity.gain)
 
 
 class _TooCoarse(Exception):
     """Echoes of a neutral loop have become rougher than the modes of the plant, which the mesh was made for."""
 
 
-class _Walk:
-    """State of the march: S (n, size, 2) as in law.py, z at the nodes of the step before, the pace of each tuning.
+class _March:
+    """State of the march: x (n, size, 2) as in closed_element.py, z at the nodes of the step before,
+    the step control of each tuning.
 
-    A step is some intervals or one element: what G makes of (w, S), one array (k, END + size, 2) for each element.
+    A step is some intervals or one element: what G makes of (w, x), one array (k, END + size, 2) for each element.
     """
 
-    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int, most_to_rest: int):
+    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int, most: float):
         self.proportional, self.derivative = any(form.Kp for form in forms), any(form.Kd for form in forms)
         self.levels = levels(plant, forms[0].tau_F, self.derivative, finer)
         self.count = self._count(plant.theta, t_end)
@@ -103,8 +115,8 @@ class _Walk:
         forms = forms[: together(at_first)]
         n = self.n_left = len(forms)
         self.plant, self.forms = plant, forms
-        self.most = most_to_rest if t_end is None else MOST_TO_END
-        self.law = Law(forms, self.levels)
+        self.most, self.on_average = (most if t_end is None else MOST_TO_END), most
+        self.closed = ClosedElements(forms, self.levels)
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.theta, self.t_end, self.n = plant.theta, t_end, n
         self.to_rest = t_end is None
@@ -114,14 +126,15 @@ class _Walk:
             )  # y and z at the nodes
             self.final[:, P:, 1] += 1.0
         self.mesh = [self.theta * part for part in self.levels.shape]
-        self.S = self.law.start()
+        self.x = self.closed.start()
         self.places = [slice(e * P, (e + 1) * P) for e in range(max(len(self.mesh), 1))]  # of the elements in z
         self.z = np.zeros((n, self.places[-1].stop, 2))
         self.largest = np.full((n, 2, 2), 1e-300)
-        self.paces = [Pace() for _ in range(n)]
+        self.controls = [StepControl() for _ in range(n)]
         self.active = dict.fromkeys(range(n))
-        self.stretches: list[Stretch] = []
+        self.batches: list[Batch] = []
         self.held = 0  # elements in them
+        self.rates: dict[int, float] = {}
 
     def arrives(self) -> bool:
         """The whole way; False as soon as the mesh turns out to be too coarse."""
@@ -159,8 +172,8 @@ class _Walk:
         while self.active and work < self.most:
             groups: dict[tuple[bool, int], list[int]] = {}
             for i in self.active:
-                pace = self.paces[i]
-                groups.setdefault((pace.before == 0, pace.level), []).append(i)
+                control = self.controls[i]
+                groups.setdefault((control.before == 0, control.level), []).append(i)
             self._groups(groups)
             work += 1 if not self.theta or all(level for _, level in groups) else len(self.mesh)
             while self.held > MOST_HELD and self.n_left > 1:
@@ -169,7 +182,7 @@ class _Walk:
                 looked = True
                 self._drop_endless()
         if self.active and not self.to_rest:
-            self._refuse(min(self.paces[i].t for i in self.active))
+            self._refuse(min(self.controls[i].t for i in self.active))
 
     def _refuse(self, covered: float) -> NoReturn:
         raise InvalidParameter(
@@ -181,21 +194,25 @@ class _Walk:
         """Half of the tunings that are left are for another march."""
         self.n_left = math.ceil(self.n_left / 2)
         self.active = {i: None for i in self.active if i < self.n_left}
-        self.stretches = [each.first(self.n_left) for each in self.stretches if each.which[0] < self.n_left]
-        self.held = sum(len(each.which) * len(each.values) for each in self.stretches)
+        self.batches = [each.first(self.n_left) for each in self.batches if each.which[0] < self.n_left]
+        self.held = sum(len(each.which) * len(each.values) for each in self.batches)
 
     def _drop_endless(self) -> None:
-        """Stop where even the least number of elements is too many."""
+        """Stop where even the least number of elements is too many, or the likely one of all tunings."""
+        likely = 0.0
         for i in list(self.active):
             per_time, duration = oscillation(Loop(self.plant, self.forms[i]))
             end = duration if self.to_rest else min(duration, self.t_end)
+            likely += LIKELY * per_time * end
             if per_time * end > self.most:
                 if not self.to_rest:
                     self._refuse(self.most / per_time)
                 del self.active[i]
+        if not self.to_rest and likely > self.on_average * self.n:
+            raise InvalidParameter(too_much(self.t_end))
 
     def _groups(self, groups: dict[tuple[bool, int], list[int]]) -> None:
-        """One stretch each. Keys: whether it follows an interval on the mesh, and its level."""
+        """One batch each. Keys: whether it follows an interval on the mesh, and its level."""
         for (_, level), which in groups.items():
             at = slice(None) if len(which) == self.n else np.array(which)
             on_mesh = level == 0 and self.theta
@@ -205,27 +222,27 @@ class _Walk:
 
     def _intervals(self, which: list[int], at, count: int) -> list[np.ndarray]:
         """Some intervals of theta, each on its mesh: w is z of the interval before."""
-        S, step, laws = self.S[at], [], [self.law[level].G[at] for level in self.levels.mesh]
-        known = self._history(which, 0) @ self.z[at, -P:] if self.paces[which[0]].before else self.z[at]
+        x, step, matrices = self.x[at], [], [self.closed[level].G[at] for level in self.levels.mesh]
+        known = self._history(which, 0) @ self.z[at, -P:] if self.controls[which[0]].before else self.z[at]
         ahead = [known[:, places] for places in self.places]
-        for i in range(count * len(laws)):
-            out = laws[i % len(laws)] @ np.concatenate([ahead[i], S], axis=1)
-            S = out[:, END:]
+        for i in range(count * len(matrices)):
+            out = matrices[i % len(matrices)] @ np.concatenate([ahead[i], x], axis=1)
+            x = out[:, END:]
             ahead.append(out[:, Z])
             step.append(out)
         return step
 
     def _element(self, which: list[int], at, level: int) -> list[np.ndarray]:
         """One element of theta 2^level, w and z together."""
-        S, law = self.S[at], self.law[level]
-        right = law.begun[at] @ S
+        x, closed = self.x[at], self.closed[level]
+        right = closed.begun[at] @ x
         if self.theta:
-            right += self._history(which, level) @ (self.z[at, -P:] if self.paces[which[0]].before else self.z[at])
-        return [law.G[at] @ np.concatenate([_solved(law.one_less[at], right), S], axis=1)]
+            right += self._history(which, level) @ (self.z[at, -P:] if self.controls[which[0]].before else self.z[at])
+        return [closed.G[at] @ np.concatenate([_solved(closed.one_less[at], right), x], axis=1)]
 
     def _history(self, which: list[int], level: int) -> np.ndarray:
         """levels.history for each tuning, one matrix where all are alike."""
-        before = [self.paces[i].before for i in which]
+        before = [self.controls[i].before for i in which]
         if before.count(before[0]) == len(before):
             return self.levels.history(before[0], level)
         return np.array([self.levels.history(each, level) for each in before])
@@ -243,7 +260,7 @@ class _Walk:
         good = range(len(which)) if on_mesh else [j for j, tail in enumerate(tails) if tail <= TAIL]
         if len(good) < len(which):
             for j in set(range(len(which))) - set(good):
-                self.paces[which[j]].shorten()
+                self.controls[which[j]].shorten()
             if not good:
                 return
             which, middles, tails = ([each[j] for j in good] for each in (which, middles, tails))
@@ -253,12 +270,25 @@ class _Walk:
         judged, unit = self.levels.mesh[-1] if on_mesh else level, self.levels.unit
         sizes = self._sizes(at, step[-len(parts) :], largest)
         for i, middle, tail, size in zip(which, middles, tails, sizes, strict=True):
-            pace = self.paces[i]
-            left = None if self.to_rest else (self.t_end - pace.t) / unit
-            pace.lengthen(judged, middle, tail, pace.t / unit, left)
+            control = self.controls[i]
+            left = None if self.to_rest else (self.t_end - control.t) / unit
+            control.lengthen(judged, middle, tail, control.t / unit, left)
             # what is asked for at t_end is the right-hand limit
-            if pace.rests(size) if self.to_rest else pace.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
+            if self._rests(i, size) if self.to_rest else control.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
                 del self.active[i]
+
+    def _rests(self, i: int, away: float) -> bool:
+        """Whether a response within `away` of its end has arrived; what does not get nearer may be a slow mode."""
+        control = self.controls[i]
+        control.at_rest = away <= REST or (control.stalls(away) and self._slowest(i) * control.t >= GONE)
+        return control.at_rest
+
+    def _slowest(self, i: int) -> float:
+        """Rate at which the slowest mode of a tuning decays; infinite where it is not known."""
+        if i not in self.rates:
+            poles = dominant_poles(Loop(self.plant, self.forms[i]), most=1)
+            self.rates[i] = -poles[0].s.real if poles else math.inf
+        return self.rates[i]
 
     def _sizes(self, at, last: list[np.ndarray], largest: np.ndarray) -> list[float]:
         """How far from rest each response gets, over its largest value; on the way to t_end how large it has been."""
@@ -269,16 +299,16 @@ class _Walk:
         return np.maximum.reduce(away / largest, axis=(1, 2)).tolist()
 
     def _keep(self, which: list[int], at, level: int, step: list[np.ndarray], parts: list[float]) -> None:
-        """Enter a stretch, and go on from its end."""
-        paces, intervals = [self.paces[i] for i in which], len(step) // len(parts)
-        self.stretches.append(Stretch(which, [pace.t for pace in paces], parts * intervals, step))
+        """Enter a batch, and go on from its end."""
+        controls, intervals = [self.controls[i] for i in which], len(step) // len(parts)
+        self.batches.append(Batch(which, [control.t for control in controls], parts * intervals, step))
         self.held += len(which) * len(step)
-        self.S[at] = step[-1][:, END:]
+        self.x[at] = step[-1][:, END:]
         for places, out in zip(self.places[-len(parts) :], step[-len(parts) :], strict=True):
             self.z[at, places] = out[:, Z]
-        for pace in paces:
-            pace.t += intervals * self.levels.length(level)
-            pace.before = level
+        for control in controls:
+            control.t += intervals * self.levels.length(level)
+            control.before = level
 
     def _parts(self, level: int) -> list[float]:
         """Lengths of the elements of one step of the march."""

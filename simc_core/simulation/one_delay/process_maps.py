@@ -15,6 +15,7 @@ which is the collocation method of the whole chain. Columns of every map: (w at 
 import numpy as np
 
 from simc_core.algebra.state_space import Row, sections
+from simc_core.controllers.forms import needs_filter
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import factored_plant
 from simc_core.plants.plant import Plant
@@ -24,7 +25,7 @@ SIGNALS = 4  # y, p, p', integral of p
 EYE = np.eye(P)
 
 
-class Measured:
+class ProcessMaps:
     """The chain of plant and measurement filter, and its maps for any length.
 
     Raises InvalidParameter: derivative action without filter on a plant whose response starts with a jump.
@@ -37,9 +38,7 @@ class Measured:
         self.derivative = derivative
         self.n = sum(2 if den[0] else 1 for _, den in self.sections) + (tau_F > 0)
         if derivative and not tau_F and not self._strictly_proper():
-            raise InvalidParameter(
-                f"tau_F must be > 0 for derivative action on a plant whose response starts with a jump, got {tau_F:g}"
-            )
+            raise InvalidParameter(needs_filter("on a plant whose response starts with a jump"))
         filter_ = [-1 / tau_F] if tau_F else []
         self.modes = np.array([*factored.poles, *filter_])
         self.relative_degree = factored.relative_degree

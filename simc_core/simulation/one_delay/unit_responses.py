@@ -11,7 +11,7 @@ from simc_core.simulation.collocation.elements import TO_CHEBYSHEV, P
 from simc_core.simulation.collocation.pieces import NEAR, Pieces, chebyshev_basis
 
 
-class Stretch(NamedTuple):
+class Batch(NamedTuple):
     """Elements of `lengths` one after the other, for some of the tunings.
 
     which, begin: the k tunings and when it begins for each.   values: of each element (k, 2 P or more, 2), y and then
@@ -23,16 +23,16 @@ class Stretch(NamedTuple):
     lengths: list[float]
     values: list[np.ndarray]
 
-    def first(self, n: int) -> "Stretch":
+    def first(self, n: int) -> "Batch":
         """Of the tunings below n, which there must be."""
         k = sum(i < n for i in self.which)  # in increasing order
         if k == len(self.which):
             return self
-        return Stretch(self.which[:k], self.begin[:k], self.lengths, [own[:k].copy() for own in self.values])
+        return Batch(self.which[:k], self.begin[:k], self.lengths, [own[:k].copy() for own in self.values])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class UnitResponses:
     """Unit step responses of n tunings. Piece j belongs to tuning owner[j]; pieces in order of owner and time.
 
     begin, length: (m,).   coefficients: (2, 2, m, P), Chebyshev: y, u for steps of r, d.   first: (n + 1,), where the
@@ -77,10 +77,10 @@ class Course:
         return found
 
 
-def course(stretches: Sequence[Stretch], at_rest: Sequence[bool]) -> Course:
-    """Stretches sorted by tuning and time, their values as polynomials."""
+def course(batches: Sequence[Batch], at_rest: Sequence[bool]) -> UnitResponses:
+    """Batches sorted by tuning and time, their values as polynomials."""
     n, owner, begin, length, nodal = len(at_rest), [], [], [], []
-    for which, begins, lengths, values in stretches:
+    for which, begins, lengths, values in batches:
         for own, start, h in zip(values, accumulate(lengths[:-1], initial=0.0), lengths, strict=True):
             owner += which
             begin += [each + start for each in begins]
@@ -94,4 +94,4 @@ def course(stretches: Sequence[Stretch], at_rest: Sequence[bool]) -> Course:
     rows = values.transpose(1, 3, 0, 2).reshape(-1, P)
     coefficients = (rows @ TO_CHEBYSHEV.T).reshape(2, 2, -1, P)
     coefficients[1, 1, :, 0] -= 1.0  # u = z - d
-    return Course(owner, begin, length, coefficients, owner.searchsorted(np.arange(n + 1)), np.array(at_rest))
+    return UnitResponses(owner, begin, length, coefficients, owner.searchsorted(np.arange(n + 1)), np.array(at_rest))

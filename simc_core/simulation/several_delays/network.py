@@ -15,11 +15,10 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from simc_core.algebra.state_space import chain
-from simc_core.controllers.forms import ParallelPid
+from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import NestedLoops
-
-WELL_POSED = 1e-12
+from simc_core.loops.well_posed import require_well_posed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,10 +84,7 @@ def integral_states(loops: NestedLoops) -> list[int | None]:
 
 def _on_error(form: ParallelPid) -> ParallelPid:
     if form.Kd and not form.tau_F:
-        raise InvalidParameter(
-            "tau_F of an inner controller with derivative action must be > 0, got 0: it differentiates what the outer "
-            "controller puts out"
-        )
+        raise InvalidParameter(needs_filter("of an inner controller, which differentiates what the outer one puts out"))
     return ParallelPid(form.Kp, form.Ki, form.Kd, form.tau_F, 1.0, 1.0)
 
 
@@ -105,7 +101,7 @@ def _controller(form: ParallelPid, r, y, slope, states, used: int):
         if not form.Kd:
             return xi + proportional, used
         if slope is None or form.c:
-            raise InvalidParameter("tau_F must be > 0 for derivative action on a signal that may jump, got 0")
+            raise InvalidParameter(needs_filter("on a signal that may jump"))
         return xi + proportional - form.Kd * slope, used
     kick = form.Kd / form.tau_F * (form.c * r - y)
     filtered = np.zeros(width)
@@ -125,8 +121,7 @@ def _without(gone: np.ndarray, system: Network) -> Network:
         return system
     kept = np.setdiff1d(np.arange(len(system.theta)), gone)
     matrix = np.eye(len(gone)) - system.D[np.ix_(gone, gone)]
-    if abs(np.linalg.det(matrix)) < WELL_POSED:
-        raise InvalidParameter("1 + L(inf) must not be zero in a loop without dead time, got 0: u is not defined")
+    require_well_posed(np.linalg.det(matrix))
     C, D, F = (np.linalg.solve(matrix, part[gone]) for part in (system.C, system.D[:, kept], system.F))
     rows = []
     for of_x, of_w, of_v in (

@@ -32,7 +32,9 @@ FEWEST_BITS = 30  # lengths below 2^-FEWEST_BITS of the first are rounding
 FLOOR = 1e-4  # a signal is judged by this part of the largest one at least: zero is zero within rounding
 SHARE = 1e-2  # and by this part of its largest response to any of the inputs
 ROUNDING = 1e-14
-MOST_ELEMENTS = 40_000
+MOST_ELEMENTS = 15_000  # 80 us each
+MOST_VALUES = 5_000_000  # numbers in all elements of a loop: 40 MB, of each of the RECENT ones
+MOST_MAPS = 200  # remembered; 0.1 MB each, 0.4 MB of six loops
 LARGEST = 1e150
 GROWTH = 1.02  # of a signal before its size is taken anew
 DIGITS = 11  # behind the point: lengths and places that agree to so many are the same
@@ -44,7 +46,7 @@ largest = np.maximum.reduce  # along an axis; the method of arrays takes three t
 RECENT = 8  # loops whose steps are remembered
 
 
-class Steps:
+class NestedStepper:
     """Responses of a Network to unit steps of all its inputs at t = 0, from rest; `run` goes on where it stopped."""
 
     def __init__(self, system: Network):
@@ -53,6 +55,7 @@ class Steps:
         self.inputs, self.signals = system.E.shape[1], self.m + len(system.Co)
         self.t, self.x, self.steps = 0.0, np.zeros((n, self.inputs)), np.eye(self.inputs)
         self.edges, self.thetas = [0.0], system.theta.tolist()
+        self.most = min(MOST_ELEMENTS, MOST_VALUES // (self.signals * P * self.inputs))
         self.coefficients = np.zeros((ROOM_AT_FIRST, self.signals, P, self.inputs))  # of (z, o), Chebyshev
         self.count = 0
         self.summands = np.abs(np.concatenate([system.C, system.Co]))  # a large kick leaves few digits of u
@@ -66,7 +69,7 @@ class Steps:
         self.bases: dict[tuple[float, float], np.ndarray] = {}
         self.largest = np.full((self.signals, self.inputs), 1e-300)
         self.allowed, self.bounded = TAIL * self.largest, True
-        self.lock = Lock()  # one Steps may serve several sessions
+        self.lock = Lock()  # one NestedStepper may serve several sessions
 
     def run(self, t_end: float) -> Pieces:
         """On to t_end, or until an unstable response is beyond all bounds.
@@ -114,6 +117,8 @@ class Steps:
         key = float(f"{length:.{DIGITS}e}")
         made = self.maps.get(key)
         if made is None:
+            if len(self.maps) >= MOST_MAPS:
+                self.maps.clear()
             made = self.maps[key] = delay_map(self.system, key)
         known = np.concatenate([self.x, self._history(length), self.steps])
         values = (made.coefficients @ known).reshape(self.signals, P, self.inputs)
@@ -162,9 +167,9 @@ class Steps:
         return found
 
     def _keep(self, values: np.ndarray, x: np.ndarray, end: float) -> None:
-        if self.count >= MOST_ELEMENTS:
+        if self.count >= self.most:
             raise InvalidParameter(
-                f"the horizon must need at most {MOST_ELEMENTS} elements, got more by t = {self.t:.3g}: "
+                f"the horizon must need at most {self.most} elements, got more by t = {self.t:.3g}: "
                 "the loop oscillates too fast for it"
             )
         if self.count == len(self.coefficients):
@@ -179,9 +184,9 @@ class Steps:
 
 
 @lru_cache(maxsize=RECENT)
-def steps_of(loops: NestedLoops) -> Steps:
-    """The Steps of these loops, the same object for all who ask: what one has run, the others need not."""
-    return Steps(network(loops))
+def steps_of(loops: NestedLoops) -> NestedStepper:
+    """The NestedStepper of these loops, the same object for all who ask: what one has run, the others need not."""
+    return NestedStepper(network(loops))
 
 
 def _unit(system: Network) -> float:

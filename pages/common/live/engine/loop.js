@@ -3,7 +3,8 @@
 //     x' = A x + B w    y = Cy x + Dy w    z = u + d = Cz x + Dz w    w(t) = z(t - theta)
 //
 // x holds the sections of the plant, the controller's integral, with tau_F > 0 also the filtered y and r, and last r
-// and d, which are constant: a unit step of each is a column of the initial state.
+// and d, which are constant: a unit step of each is a column of the initial state. Where they are ramps, their slopes are
+// the last two states, and constant.
 //
 // plant       {k, theta, lags, leads, integrators, lag_pairs, lead_pairs}, as simc_core's Plant; pairs are [tau, zeta]
 // controller  {Kp, Ki, Kd, tau_F, b, c}, as simc_core's ParallelPid
@@ -62,15 +63,17 @@ function chain(plant) {
   return { n, A, B, C: C.map((value) => plant.k * value), D: plant.k * D };
 }
 
-/** The system of the head of this file, or null where this engine has none: a jump would have to be differentiated. */
-export function openedLoop(plant, { Kp, Ki, Kd, tau_F, b, c }) {
+/** The system of the head of this file, ramped: with slopes; or null where this engine has none: a jump would have to be differentiated. */
+export function openedLoop(plant, { Kp, Ki, Kd, tau_F, b, c }, ramped = false) {
   const g = chain(plant);
   const filtered = tau_F > 0;
-  const n = g.n + (filtered ? 5 : 3);
-  const [p, q, I, r, d] = filtered ? [g.n, g.n + 1, g.n + 2, n - 2, n - 1] : [-1, -1, g.n, n - 2, n - 1];
+  const [p, q, I] = filtered ? [g.n, g.n + 1, g.n + 2] : [-1, -1, g.n];
+  const [r, d] = [I + 1, I + 2];
+  const n = I + (ramped ? 5 : 3);
   if (!filtered && Kd && (g.D || c)) return null;
   const A = new Float64Array(n * n);
   const B = new Float64Array(n);
+  if (ramped) A[r * n + n - 2] = A[d * n + n - 1] = 1;
   const [Cy, Cu] = [new Float64Array(n), new Float64Array(n)];
   for (let i = 0; i < g.n; i++) {
     A.set(g.A.subarray(i * g.n, (i + 1) * g.n), i * n);

@@ -5,7 +5,8 @@ import { openedLoop } from "./loop.js";
 import { scenario, unitSteps } from "./time.js";
 
 /**
- * steps: {r, d, load}, heights and the time of the load step; end: of the time axis.
+ * steps: {r, d, load, r_ramp, d_ramp}, heights, when the load begins, and in what times the heights are reached, 0 for
+ * steps; end: of the time axis.
  * Returns {stable, unstable, t, y, u, omega, re, im, figures}, or null where the loop has no response to draw.
  */
 export function picture(plant, controller, steps, end) {
@@ -15,7 +16,8 @@ export function picture(plant, controller, steps, end) {
   const L = factorsOf(plant, controller);
   const omega = grid(L);
   const unstable = unstablePoles(L);
-  const curves = scenario(record, steps, end);
+  const ramps = steps.r_ramp || steps.d_ramp ? unitSteps(openedLoop(plant, controller, true), end) : null;
+  const curves = scenario(record, ramps, steps, end);
   const [re, im] = [[], []];
   for (const w of omega) {
     const [size, phase] = logL(L, w);
@@ -37,9 +39,9 @@ export function measures({ t, y, u }) {
   const TV = u.map((curve) => curve.reduce((sum, value, k) => sum + (k ? Math.abs(value - curve[k - 1]) : 0), 0));
   return {
     IAE_setpoint: IAE[0],
-    IAE_load: IAE[1],
+    IAE_disturbance: IAE[1],
     TV_setpoint: TV[0] + Math.abs(u[0][0]),
-    TV_load: TV[1],
+    TV_disturbance: TV[1],
     overshoot: Math.max(0, Math.max(...y[0]) - 1),
   };
 }

@@ -208,23 +208,48 @@ function stepMatrix({ n, A, B, Cz, Dz }, h, order) {
 }
 
 /**
- * A set-point step of height r at 0 and a load step of height d at `load`: {t, y, u}.
+ * A set point of height r from 0 on and a load of height d from `load` on: {t, y, u}. A height that is reached evenly
+ * in the time r_ramp or d_ramp makes the mean of the step response over that time. record, ramps: unit responses to
+ * steps, and to ramps of slope 1 where there are any.
  *
  * Instants are those of the set-point response before the load step and those of the load response after it, where the
  * set-point response is smooth enough to be read between its own.
  */
-export function scenario(record, { r, d, load }, T) {
+export function scenario(record, ramps, { r, d, load, r_ramp, d_ramp }, T) {
   const [first, second] = [0, 1];
   const before = record.t.filter((t) => t < load && t < T);
   const after = record.t.map((t) => t + load).filter((t) => t < T);
   const t = load < T ? [...before, load, ...after, T] : [...before, T];
   const begins = before.length + 1; // the load step is seen from here on
-  const both = (curves) =>
-    t.map((s, i) => {
+  const both = (signal) => {
+    const [ofR, ofD] = [
+      course(record, ramps, (of) => of[signal][first], r_ramp),
+      course(record, ramps, (of) => of[signal][second], d_ramp),
+    ];
+    return t.map((s, i) => {
       const late = i >= begins && load < T;
-      return r * reading(record, curves[first], s) + (late ? d * reading(record, curves[second], s - load) : 0);
+      return r * ofR(s) + (late ? d * ofD(s - load) : 0);
     });
-  return { t, y: both(record.y), u: both(record.u) };
+  };
+  return { t, y: both("y"), u: both("u") };
+}
+
+/** The response of one input to a step, or to a ramp of this duration, at any instant >= 0. */
+function course(steps, ramps, curve, ramp) {
+  if (!ramp) return (at) => reading(steps, curve(steps), at);
+  const risen = (at) => (at <= 0 ? 0 : reading(ramps, curve(ramps), at));
+  return (at) => (risen(at) - risen(at - ramp)) / ramp;
+}
+
+/** Index of the last of increasing t that is not above `at`; the first one where all are. */
+function below(t, at) {
+  let [low, high] = [0, t.length];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (t[middle] <= at) low = middle;
+    else high = middle;
+  }
+  return low;
 }
 
 const KINKS = 8; // multiples of theta at which a curve may bend too sharply to be read across
@@ -232,14 +257,9 @@ const KINKS = 8; // multiples of theta at which a curve may bend too sharply to 
 /** The curve between its points: a polynomial through up to four of them, not across a jump or an early kink. */
 export function reading({ t, theta }, curve, at) {
   const last = t.length - 1;
-  if (at >= t[last]) return curve[last];
-  let [low, high] = [0, last];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (t[middle] <= at) low = middle;
-    else high = middle;
-  }
-  if (t[low] === at) return curve[low];
+  const low = below(t, at);
+  const high = low + 1;
+  if (low === last || t[low] === at) return curve[low];
   let [first, end] = [Math.max(0, low - 1), Math.min(last, low + 2)];
   const k = Math.floor((at / theta) * (1 + 1e-12));
   if (theta && k < KINKS) {

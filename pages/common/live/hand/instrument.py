@@ -38,14 +38,15 @@ def hand_instrument(present: Study, behind: list[tuple[str, Study]], settings: b
         held.end = None
     subject = held.subject
     first = subject.at(table.values_of(subject))
-    grid = grid_around(first, [first.L], held.end)
+    design = state.design_now()
+    grid = grid_around(first, [first.L], design.excitation, held.end)
     held.end = float(grid.t[-1])
     name = table.setup_name(subject, grid, behind)
     message = held.message("hand", name, lambda: table.setup(subject, grid, present, behind, name))
     answers = components.show(components.hand, key, message, lambda release: _take(release, settings))
     components.message(
         key=f"{key}_exact",
-        data=table.exact(subject, grid, held.values, name, answers, state.design_now().sheet),
+        data=table.exact(subject, grid, held.values, name, answers, design.sheet),
     )
     loop = subject.at(held.values)
     return study_of_settings(loop.plant, loop.controller)

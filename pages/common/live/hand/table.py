@@ -13,6 +13,7 @@ from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.live.tuning.table import CURVES, SHOWN, Grid, cap, judged, responses
+from pages.common.parts.settings_text import UNITS
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, study_of_settings
 from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
@@ -35,6 +36,9 @@ NAMES = {
     "theta": ("θ", "Dead time theta"),
     "tau1": ("τ<sub>1</sub>", "Largest time constant tau1"),
 }
+
+
+KNOB_UNITS = {**UNITS, "theta": "time", "tau1": "time"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,13 +95,17 @@ def _knob(subject: Subject, name: str, value: float) -> dict:
         "low": low,
         "high": size * REACH,
         "zero": zero,
+        "what": KNOB_UNITS.get(name) or _gain_of(subject.plant),
     }
+
+
+def _gain_of(plant: Plant) -> str:
+    return {0: "PV/OP", 1: "PV/(OP time)"}.get(plant.integrators, "")
 
 
 def _usual(subject: Subject, name: str) -> float:
     """A size for a knob that stands at nothing."""
-    slowest = max([abs(tau) for tau in subject.plant.lags] + [tau for tau, _ in subject.plant.lag_pairs], default=0.0)
-    time = subject.plant.theta or slowest or 1.0
+    time = subject.plant.theta or subject.plant.slowest or 1.0
     if name in ("tau_D", "theta"):
         return 0.5 * time
     form = subject.controller.to_parallel()
@@ -114,9 +122,8 @@ def setup(subject: Subject, grid: Grid, present: Study, behind: Sequence[tuple[s
         "knobs": knobs(subject),
         "plant": plant,
         "controller": _controller(subject.controller),
-        "steps": {"r": 1.0, "d": 1.0, "load": grid.load},
+        "steps": grid.steps,
         "t": grid.t.tolist(),
-        "load": grid.load,
         "omega": grid.omega.tolist(),
         **judgement(CELLS),
         "pins": [{"name": letter} for letter, _ in behind],
@@ -181,4 +188,6 @@ def allowed(subject: Subject, values: dict) -> dict[str, float]:
 
 def setup_name(subject: Subject, grid: Grid, behind: Sequence[tuple[str, Study]]) -> str:
     """Same name, same setup."""
-    return name_of(subject, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind])
+    return name_of(
+        subject, grid.excitation, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind]
+    )

@@ -24,7 +24,7 @@ export class Panel {
     this.box.querySelector(".legend").replaceChildren(...(spec.legend ?? []).map(swatch));
     this.readout = this.box.querySelector("output");
     this.plot = this.box.querySelector(".plot");
-    this.unzoom = button("⟲ whole", "The whole curves again (double click)", () => this.reset());
+    this.unzoom = button("⟲ Reset zoom", "Or a double click on the curves", () => this.reset());
     this.unzoom.className = "unzoom";
     this.unzoom.hidden = true;
     this.single = button("⤢", "One panel or all");

@@ -28,14 +28,19 @@ def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     present, pins = studies[0][1], studies[1:]
     held = state.memory(KEY, Held)
     subject = table.subject_of(plant, present, state.value("form"))
-    grid = table.grid_of(subject, present, held.end_for(subject))
+    design = state.design_now()
+    grid = table.grid_of(subject, present, design.excitation, held.end_for(subject))
     held.subject, held.end = subject, float(grid.t[-1])
     name = table.table_name(subject, grid, pins)
-    message = held.message("tuning", name, lambda: table.table(subject, grid, pins, name))
+    try:
+        message = held.message("tuning", name, lambda: table.table(subject, grid, pins, name))
+    except InvalidParameter as error:
+        st.warning(f"Nothing can be dragged here, the other views show this design. {told(str(error))}")
+        return
     answers = components.show(components.tuning, KEY, message, _take)
     components.message(
         key=f"{KEY}_exact",
-        data=table.exact(subject, grid, present, name, answers, state.design_now().sheet),
+        data=table.exact(subject, grid, present, name, answers, design.sheet),
     )
     refused, why = state.memory("live_refusal", lambda: (None, ""))
     if refused == subject:  # a refusal goes with what it was said of

@@ -20,10 +20,11 @@ import { round, text } from "../kit/format.js";
 import { mix, sensitivities } from "../kit/table.js";
 
 export function responsePanels(table, scale) {
-  const { t, omega, pins } = table;
+  const { t, omega, pins, steps } = table;
   const end = t.at(-1),
     window = [0, end];
   const within = ([low, high], cap) => round(Math.max(low, cap[0]), Math.min(high, cap[1]));
+  const bounds = [Math.min(0, 1.05 * steps.r), Math.max(0, 1.05 * steps.r)];
   const output = timePanel(
     {
       key: "y",
@@ -34,10 +35,10 @@ export function responsePanels(table, scale) {
       legend: [
         { text: "y", color: Y },
         { text: "r", color: R, dash: true },
-        { text: `load d at ${text(table.load, 3)}`, color: D, dash: true },
+        ...(steps.d ? [{ text: `load d from ${text(steps.load, 3)}`, color: D, dash: true }] : []),
         ...pins.map(({ name }, i) => ({ text: name, color: shadeOf(Y, i), dash: true })),
       ],
-      y: { label: LABELS.y, limits: (p) => within(extent(p, window, [0, 1.05]), table.y_cap) },
+      y: { label: LABELS.y, limits: (p) => within(extent(p, window, bounds), table.y_cap) },
       styles: [
         { color: R, dash: [5, 4], width: 1.5 },
         { color: D, dash: [2, 3], width: 1.2 },
@@ -95,8 +96,8 @@ export function responsePanels(table, scale) {
     scale,
   );
 
-  const step = { x: [0, 0, end], y: [0, 1, 1] };
-  const load = { x: [table.load, table.load], y: [-1e6, 1e6] };
+  const step = { x: [0, steps.r_ramp, Math.max(end, steps.r_ramp)], y: [0, steps.r, steps.r] };
+  const load = steps.d ? { x: [steps.load, steps.load], y: [-1e6, 1e6] } : { x: [], y: [] };
   const pinRows = (name) => pins.map((_, i) => mix(table.blocks[name], { first: i, weights: [1] }));
   const [py, pu, pre, pim] = ["pin_y", "pin_u", "pin_re", "pin_im"].map(pinRows);
   const ps = pre.map((re, i) => sensitivities(re, pim[i]));

@@ -11,7 +11,8 @@ from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
-from pages.common.session.design import Tuning
+from pages.common.parts.settings_text import UNITS, sizes
+from pages.common.session.design import Excitation, Tuning
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from simc_core.algebra.factors import Factored
@@ -22,14 +23,13 @@ from simc_core.loops.loop import Loop
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
 from simc_core.rules.simc import default_tau_c, simc, tau_c_presets
-from simc_core.simulation import Scenario, simulate
-from simc_core.simulation.horizon import settling_horizon
-from simc_core.studies.sweep import MARGINS, METRICS, Sweep, dressed, sweep, time_curves
+from simc_core.simulation import simulate
+from simc_core.simulation.horizon import times
+from simc_core.studies.sweep import MARGINS, METRICS, Sweep, sweep, time_curves
 from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
 
 SHORTEST, LONGEST = 0.1, 100.0  # of tau_c over theta, on the slider
 POINTS = 300
-LOAD_AT = 0.5  # of the horizon
 JUMPS = 12  # instants k theta after each step at which curves may break
 BISECTIONS = 30
 CURVES = ("y", "u", "re", "im")
@@ -41,9 +41,9 @@ FIGURES = (
     "PM_deg",
     "delay_margin",
     "IAE_setpoint",
-    "IAE_load",
+    "IAE_disturbance",
     "TV_setpoint",
-    "TV_load",
+    "TV_disturbance",
     "overshoot",
     "noise_gain",
 )
@@ -53,23 +53,48 @@ SHOWN = (
     "PM_deg",
     "delay_margin",
     "IAE_setpoint",
-    "IAE_load",
+    "IAE_disturbance",
     "Mt",
     "TV_setpoint",
-    "TV_load",
+    "TV_disturbance",
     "overshoot",
     "noise_gain",
 )
-SWEPT = (*MARGINS[4:], *MARGINS[:4], *METRICS)  # where a Sweep has the first of them
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Grid:
-    """The instants and frequencies everything is computed at, so that table, pins and exact curves share them."""
+    """The instants and frequencies everything is computed at, so that table, pins and exact curves share them.
+
+    load: when the load begins.   excitation: heights and ramps.
+    """
 
     t: np.ndarray
     load: float
     omega: np.ndarray
+    excitation: Excitation
+
+    @property
+    def steps(self) -> dict[str, float]:
+        """What r and d do, for the browser."""
+        asked = self.excitation
+        return {
+            "r": asked.setpoint,
+            "d": asked.disturbance,
+            "load": self.load,
+            "r_ramp": asked.setpoint_ramp,
+            "d_ramp": asked.disturbance_ramp,
+        }
+
+    @property
+    def ramps(self) -> tuple[float, float]:
+        """Of r and d."""
+        return self.excitation.setpoint_ramp, self.excitation.disturbance_ramp
+
+    @property
+    def heights(self) -> np.ndarray:
+        """Of r and d."""
+        return np.array([self.excitation.setpoint, self.excitation.disturbance])
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +108,7 @@ class Subject:
 
     def controller(self, tau_c: float) -> Controller:
         """SIMC at tau_c, with set-point weight and filter."""
-        return dressed(simc(self.model, tau_c), self.tuning.b, self.tuning.filter)
+        return simc(self.model, tau_c).with_filter(self.tuning.filter).with_weight(self.tuning.b)
 
     def loop(self, tau_c: float) -> Loop:
         """The loop round the full plant."""
@@ -92,7 +117,7 @@ class Subject:
     def swept(self, tau_c: np.ndarray, grid: "Grid") -> Sweep:
         """Everything at all tau_c."""
         b, ratio = self.tuning.b, self.tuning.filter
-        return sweep(self.plant, self.model, tau_c, grid.t, grid.omega, b, ratio, grid.load)
+        return sweep(self.plant, self.model, tau_c, grid.t, grid.omega, b, ratio, grid.load, grid.ramps)
 
 
 def subject_of(plant: Plant, present: Study, form: str) -> Subject:
@@ -102,20 +127,23 @@ def subject_of(plant: Plant, present: Study, form: str) -> Subject:
     return Subject(plant, present.model, replace(present.tuning, tau_c=None, speed=""), form)
 
 
-def grid_of(subject: Subject, present: Study, shown: float | None = None) -> Grid:
+def grid_of(subject: Subject, present: Study, excitation: Excitation, shown: float | None = None) -> Grid:
     """Instants and frequencies. shown: the horizon on the screen, kept as long as the present design suits it.
 
     The frequencies are those of one reference design, so that they do not change with tau_c.
     """
-    return grid_around(present.loop, [subject.loop(bounds(subject.model)[2]).L], shown)
+    return grid_around(present.loop, [subject.loop(bounds(subject.model)[2]).L], excitation, shown)
 
 
-def grid_around(loop: Loop, curves: Sequence[Factored], shown: float | None = None) -> Grid:
-    """Instants that suit a loop, and frequencies that suit these L."""
-    end = kept_end(2 * settling_horizon(loop), shown)
-    load, theta = LOAD_AT * end, loop.plant.theta
-    breaks = [start + k * theta for start in (0.0, load) for k in range(JUMPS + 1)]
-    return Grid(instants(np.linspace(0.0, end, POINTS + 1), breaks, end), load, omega_grid(curves))
+def grid_around(loop: Loop, curves: Sequence[Factored], excitation: Excitation, shown: float | None = None) -> Grid:
+    """Instants that suit a loop and what is asked of it, and frequencies that suit these L."""
+    begins, wanted = times(loop, excitation.scenario())
+    end = kept_end(wanted, shown)
+    load, theta = begins if excitation.load_time is not None else begins / wanted * end, loop.plant.theta
+    starts = (0.0, load, excitation.setpoint_ramp, load + excitation.disturbance_ramp)
+    breaks = [start + k * theta for start in starts for k in range(JUMPS + 1)]
+    t = instants(np.linspace(0.0, end, POINTS + 1), breaks, end)
+    return Grid(t, load, omega_grid(curves), excitation)
 
 
 def bounds(model: Model) -> tuple[float, float, float, str]:
@@ -137,9 +165,11 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
         "log_tau_c": nodes.x.tolist(),
         "breaks": nodes.breaks,
         "t": grid.t.tolist(),
-        "load": grid.load,
+        "steps": grid.steps,
         "omega": grid.omega.tolist(),
         "settings": names,
+        "measures": {name: UNITS[name] for name in names},
+        "action": f"{found.controllers[0].action} action",
         "metrics": FIGURES,
         **judgement(SHOWN),
         "unit": unit,
@@ -153,10 +183,10 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
         "presets": list(tau_c_presets(subject.model).items()),
         "pins": [{"name": letter, "metrics": figures(judged(each, grid.omega))} for letter, each in pins],
     }
-    blocks = curves(found)
+    blocks = curves(found, grid)
     for field in ("y", "u"):
         header[f"{field}_cap"] = cap(blocks[field][found.stable], 1.0)
-    blocks["settings"] = np.array([list(each.in_form(subject.form).settings.values()) for each in found.controllers])
+    blocks["settings"] = np.array([list(sizes(each.in_form(subject.form)).values()) for each in found.controllers])
     blocks["metrics"] = metrics(subject, found)
     if pins:
         pinned = zip(*[responses(each.loop, grid) for _, each in pins], strict=True)
@@ -173,22 +203,23 @@ def rows(subject: Subject, grid: Grid) -> tuple[Rows, Sweep]:
 
     def compute(tau_c: np.ndarray) -> list[np.ndarray]:
         controllers = [subject.controller(each) for each in tau_c.tolist()]
-        y, u = time_curves(subject.plant, controllers, grid.t, grid.load).sum(axis=2).transpose(1, 0, 2)
-        return [y, u]
+        unit = time_curves(subject.plant, controllers, grid.t, grid.load, grid.ramps)
+        return list(np.einsum("nsit,i->snt", unit, grid.heights))
 
     nodes, _ = refined(first_rows(low, high, kinks(subject.model)), compute)
     return nodes, subject.swept(nodes.tau_c, grid)
 
 
-def curves(found: Sweep) -> dict[str, np.ndarray]:
-    """CURVES of a sweep: a step of r at 0 and one of d at the time of the load; each of shape (rows, points)."""
-    y, u = found.y_setpoint + found.y_disturbance, found.u_setpoint + found.u_disturbance
+def curves(found: Sweep, grid: Grid) -> dict[str, np.ndarray]:
+    """CURVES of a sweep: r from 0 on and d from the time of the load on; each of shape (rows, points)."""
+    r, d = grid.heights
+    y, u = r * found.y_setpoint + d * found.y_disturbance, r * found.u_setpoint + d * found.u_disturbance
     return dict(zip(CURVES, (y, u, found.L.real, found.L.imag), strict=True))
 
 
 def metrics(subject: Subject, found: Sweep) -> np.ndarray:
     """FIGURES of all rows, (rows, figures)."""
-    values = {name: getattr(found, of_sweep) for name, of_sweep in zip(FIGURES, SWEPT, strict=False)}
+    values = {name: getattr(found, name) for name in (*MARGINS, *METRICS)}
     G = subject.plant.response(1j * found.omega)
     noise = [noise_gain(L, G, each) for L, each in zip(found.L, found.controllers, strict=True)]
     values["noise_gain"] = np.where(found.stable, noise, np.nan)
@@ -205,7 +236,7 @@ def exact(subject: Subject, grid: Grid, present: Study, name: str, answers: int,
         "answers": answers,
         "labels": axis_labels(sheet),
         "stable": present.stable,
-        "settings": present.controller.in_form(subject.form).settings,
+        "settings": sizes(present.controller.in_form(subject.form)),
         "metrics": figures(judged(present, grid.omega)),
     }
     return pack(header, dict(zip(CURVES, responses(present.loop, grid), strict=True)))
@@ -213,7 +244,7 @@ def exact(subject: Subject, grid: Grid, present: Study, name: str, answers: int,
 
 def responses(loop: Loop, grid: Grid) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """y and u at the instants, Re L and Im L at the frequencies."""
-    course = simulate(loop, Scenario(disturbance_time=grid.load, t_end=float(grid.t[-1]), t=grid.t))
+    course = simulate(loop, grid.excitation.scenario(disturbance_time=grid.load, t_end=float(grid.t[-1]), t=grid.t))
     L = loop.L(1j * grid.omega)
     return course.y, course.u, L.real, L.imag
 
@@ -223,16 +254,15 @@ def judged(each: Study, omega: np.ndarray) -> dict[str, float]:
     if not each.stable:
         return dict.fromkeys(FIGURES, math.nan)
     metrics, s = each.performance, 1j * omega
-    values = (
-        *(getattr(each.margins, name) for name in SWEPT[:6]),
-        metrics.setpoint.IAE,
-        metrics.disturbance.IAE,
-        metrics.setpoint.TV,
-        metrics.disturbance.TV,
-        metrics.setpoint.overshoot,
-        noise_gain(each.loop.L(s), each.loop.plant.response(s), each.controller),
-    )
-    return dict(zip(FIGURES, values, strict=True))
+    values = {name: getattr(each.margins, name) for name in MARGINS} | {
+        "IAE_setpoint": metrics.setpoint.IAE,
+        "IAE_disturbance": metrics.disturbance.IAE,
+        "TV_setpoint": metrics.setpoint.TV,
+        "TV_disturbance": metrics.disturbance.TV,
+        "overshoot": metrics.setpoint.overshoot,
+        "noise_gain": noise_gain(each.loop.L(s), each.loop.plant.response(s), each.controller),
+    }
+    return {name: values[name] for name in FIGURES}
 
 
 def noise_gain(L: np.ndarray, G: np.ndarray, controller: Controller) -> float:
@@ -273,5 +303,5 @@ def cap(responses: np.ndarray, room: float) -> tuple[float, float]:
 
 def table_name(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]]) -> str:
     """Of the table: same name, same table."""
-    ends = float(grid.t[-1]), len(grid.omega), float(grid.omega[0]), float(grid.omega[-1])
+    ends = grid.excitation, float(grid.t[-1]), len(grid.omega), float(grid.omega[0]), float(grid.omega[-1])
     return name_of(subject, *ends, [(each.tuning, each.controller) for _, each in pins])

@@ -27,7 +27,7 @@ const TRADE_OFFS = [
     true,
     [
       ["IAE_setpoint", "r", Y],
-      ["IAE_load", "d", U],
+      ["IAE_disturbance", "d", U],
     ],
   ],
   [
@@ -36,7 +36,7 @@ const TRADE_OFFS = [
     true,
     [
       ["TV_setpoint", "r", Y],
-      ["TV_load", "d", U],
+      ["TV_disturbance", "d", U],
     ],
   ],
   [
@@ -110,7 +110,7 @@ export function tradeOffPanels(table, scale) {
         label: "IAE load",
         log: true,
         limits: () => {
-          const v = known(column("IAE_load"));
+          const v = known(column("IAE_disturbance"));
           return v.length ? [0.8 * Math.min(...v), 1.25 * Math.max(...v)] : [0.1, 10];
         },
       },
@@ -121,7 +121,7 @@ export function tradeOffPanels(table, scale) {
         let i = 0;
         for (let j = 1; j < Ms.length; j++)
           if (Math.abs(Ms[j] - at) < Math.abs(Ms[i] - at) || Number.isNaN(Ms[i])) i = j;
-        return `Ms = ${text(Ms[i])}   IAE ${text(column("IAE_load")[i])}   ${x.label} = ${text(ratios[i], 3)}`;
+        return `Ms = ${text(Ms[i])}   IAE ${text(column("IAE_disturbance")[i])}   ${x.label} = ${text(ratios[i], 3)}`;
       },
     },
     scale,
@@ -147,13 +147,13 @@ export function tradeOffPanels(table, scale) {
       });
       const pins = table.pins.map((pin, i) => ({
         x: pin.metrics.Ms,
-        y: pin.metrics.IAE_load,
+        y: pin.metrics.IAE_disturbance,
         color: shadeOf(U, i),
         label: LETTERS[i],
       }));
       price.show(
-        [{ x: column("Ms"), y: column("IAE_load") }],
-        [...pins, { x: metrics.Ms, y: metrics.IAE_load, color: U, label: "present" }],
+        [{ x: column("Ms"), y: column("IAE_disturbance") }],
+        [...pins, { x: metrics.Ms, y: metrics.IAE_disturbance, color: U, label: "present" }],
       );
     },
   };

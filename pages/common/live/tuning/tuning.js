@@ -18,14 +18,13 @@ export class Tuning extends Instrument {
       hint: "Keys: arrows, Home, End move τc · 1, 2, … presets · space sweep · L or Esc back",
     });
     const wanted = document.createElement("label");
-    wanted.title = "Sets tau_c to the smallest with this Ms, exactly";
-    wanted.innerHTML = `Smallest τ<sub>c</sub> with Ms ≤ <input class="ms" inputmode="decimal" maxlength="100"
-      placeholder="1.6" aria-label="Smallest tau_c with Ms at most">`;
-    wanted.lastChild.addEventListener(
-      "change",
-      (event) => event.target.value && this.ask({ Ms: event.target.value }), // as typed: Python reads it
-    );
-    root.querySelector(".extras").append(wanted);
+    wanted.title = "Sets tau_c to the smallest with this Ms";
+    wanted.innerHTML = `Fastest τ<sub>c</sub> with Ms up to <input class="ms" inputmode="decimal" maxlength="100"
+      aria-label="Fastest tau_c with Ms up to">`;
+    const peak = wanted.lastChild;
+    const find = () => peak.value && this.ask({ Ms: peak.value }); // as typed: Python reads it
+    peak.addEventListener("keydown", (event) => event.key === "Enter" && find());
+    root.querySelector(".extras").append(wanted, button("Find", wanted.title, find));
   }
 
   take(message) {
@@ -116,7 +115,7 @@ export class Tuning extends Instrument {
   }
 
   figures({ exact, stable, settings, metrics }) {
-    this.slider.tell(settings, exact);
+    this.slider.tell(settings, exact, this.table.measures, this.table.action);
     strip(
       this.root.querySelector(".strip"),
       this.table,
@@ -134,7 +133,8 @@ export class Tuning extends Instrument {
     if (!stable) return `tau_c ${text(tau_c)}: the loop is not stable`;
     return (
       `tau_c ${text(tau_c)}: Ms ${text(m.Ms)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
-      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_load)}, overshoot ${text(100 * m.overshoot, 3)} percent`
+      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_disturbance)}, ` +
+      `overshoot ${text(100 * m.overshoot, 3)} percent`
     );
   }
 }

@@ -1,0 +1,1 @@
+"""Controllers that one can buy or download: their laws, units and ranges."""
