@@ -38,6 +38,7 @@ bench: $(VENV)/dev.stamp
 	$(BIN)/python -m benchmarks.sweep
 	$(BIN)/python -m benchmarks.cascade
 	$(BIN)/python -m benchmarks.actuator
+	$(BIN)/python -m benchmarks.optimum
 
 bench-ui: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m benchmarks.ui

@@ -52,6 +52,7 @@ from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
 from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
+from simc_core.studies.comparison import EqualRobustness, at_equal_robustness, comparison
 from simc_core.studies.optimum import optimal, trade_off
 from simc_core.studies.sweep import Sweep, sweep
 from simc_core.studies.tune import tune

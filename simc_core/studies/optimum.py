@@ -130,7 +130,7 @@ def trade_off(
 def search_for(plant: Plant, kind: str, criterion: str, tau_F: float | None, series: bool) -> Search:
     """What `optimal` and `trade_off` are asked for, with scale and first guess from the half rule."""
     model = model_of(plant)
-    scale = scale_of(plant, model)
+    scale = scale_of(plant)
     if tau_F is None:
         tau_F = FILTER * scale if kind == "PID" else 0.0
     tau_F = checks.optional_time("tau_F", tau_F)
@@ -145,7 +145,7 @@ def model_of(plant: Plant) -> Model | None:
         return None
 
 
-def scale_of(plant: Plant, model: Model | None) -> float:
+def scale_of(plant: Plant) -> float:
     """Effective dead time of the half rule's first-order model; where it is 0, 1/omega_n, or a tenth of all lags."""
     try:
         theta = half_rule(plant, 1).model.theta
