@@ -9,7 +9,7 @@ from pages.common.shell import header
 from pages.common.studies.single import Study, attempt, present_study, study
 from pages.common.tuning import guards
 from pages.common.tuning.actuator_view import VIEW, actuator_view, mark, reach
-from pages.common.tuning.drag import drag
+from pages.common.tuning.drag import STILL, drag, dragged
 from pages.common.tuning.excitation import excitation
 from pages.common.tuning.model_error_view import model_error_view
 from pages.common.tuning.panels import open_loop, panels
@@ -19,7 +19,7 @@ from pages.common.tuning.refused import choices, refused
 from pages.common.tuning.source import NOW, change_in_words, in_the_plant_now, my_settings, source_control
 from pages.common.tuning.widgets import settings, structure, tau_c_control
 
-VIEWS = ("Live", "Figures", "Bode of L", "Model error", "As built", "Compare")
+VIEWS = ("Live", "Bode of L", "Model error", "As built", "Compare")
 
 
 def decide(design: Design, made: Study | None, present: Study | None) -> Study | None:
@@ -30,7 +30,7 @@ def decide(design: Design, made: Study | None, present: Study | None) -> Study |
     elif present is None:
         choices()
     else:
-        tau_c_control(present, slider=state.widget("views", VIEWS[0]) != VIEWS[0])
+        tau_c_control(present, slider=not (state.widget("views", VIEWS[0]) == VIEWS[0] and dragged()))
         structure()
     if present:
         settings(present)
@@ -49,14 +49,12 @@ def look(design: Design, present: Study, baseline: Study | None) -> None:
         st.markdown(f"**Against the settings now:** {change_in_words(baseline, present)}")
     behind = [*([(NOW, baseline)] if baseline else []), *pinned_studies(design.plant, design.pins)]
     studies = [("present", present), *behind]
-    instrument, figures, bode, error, built, table = st.tabs(VIEWS, key="views", on_change="rerun")
+    instrument, bode, error, built, table = st.tabs(VIEWS, key="views", on_change="rerun")
     if instrument.open:
         with instrument:
-            drag(design.plant, present, behind)
-    if figures.open:
-        with figures:
-            readout(present)
-            panels(studies, design.excitation)
+            if drag(design.plant, present, behind) == STILL:
+                readout(present)
+                panels(studies, design.excitation)
     if bode.open:
         with bode:
             open_loop(studies)
@@ -72,7 +70,18 @@ def look(design: Design, present: Study, baseline: Study | None) -> None:
             guards.poles(present)
 
 
+def open_asked(view: str) -> None:
+    """The view that a link names; figures were a tab of their own."""
+    if view == "figures":
+        state.set_widget("views", VIEWS[0])
+        state.set_widget("drag", STILL)
+    for name in VIEWS:
+        if view == name.lower():
+            state.set_widget("views", name)
+
+
 design = header.show("tuning")
+open_asked(state.asked_view())
 made, refusal = attempt(lambda: study(design.plant, design.tuning))
 present = made
 if design.source == "own":

@@ -40,6 +40,10 @@ class OutOfDomain(SimcError):
     """A tuning rule was asked for a model, or a setting of its own, that it is not made for."""
 
 
+class NoOptimum(SimcError):
+    """No controller is best under the bound: none meets it, or ever better ones do."""
+
+
 class RuleEnds(InvalidParameter):
     """SIMC has no setting for this model; `change` is a change of the design that has one, {} if none is known."""
 

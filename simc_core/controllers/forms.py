@@ -57,6 +57,12 @@ class _Forms:
         """The settings of this form by name, filter and weights apart."""
         return {name: getattr(self, name) for name in self.SETTINGS}
 
+    @property
+    def action(self) -> str:
+        """reverse, where the output falls when the measurement rises, or direct: by the sign of the gain."""
+        form = self.to_parallel()
+        return "reverse" if (form.Kp or form.Ki or form.Kd) > 0 else "direct"
+
     def in_form(self, form: str) -> "Controller":
         """The same controller in one of FORMS; pure integral action stays what it is. Raises FormError."""
         return {"series": self.to_series, "ideal": self.to_ideal, "parallel": self.to_parallel}[form]()

@@ -130,7 +130,10 @@ def _magnitude(omega: np.ndarray, F: np.ndarray, name: str, color: str, dash: st
 def _peak(omega: float, height: float, symbol: str, color: str, ends: tuple[float, float]) -> Trace:
     """A marked peak; one at omega = 0 or infinity is marked at that end of the picture."""
     at = min(max(omega, ends[0]), ends[1])
-    label, hover = f"{symbol} {height:.3g}", f"{symbol} = {height:.4g} at ω = {omega:.4g}<extra></extra>"
+    label, hover = (
+        f"{symbol} {height:.3g}",
+        f"{symbol} = {height:.4g} at ω = {omega:.4g} [rad/time unit]<extra></extra>",
+    )
     left = (symbol == "Mt" and at > ends[0]) or at == ends[1]
     return palette.marker(at, height, label, color, symbol, "top left" if left else "top right", hovertemplate=hover)
 
@@ -185,7 +188,7 @@ def _delay_margin(margins: Margins, crossings: Crossings) -> list[Trace]:
     at = int(np.argmin(crossings.gain_phase % (2 * math.pi) / crossings.gain_omega))
     label = f"delay margin {margins.delay_margin:.3g}"
     point = palette.marker(float(crossings.gain_omega[at]), 1.0, label, palette.U, "delay margin", "bottom left")
-    return [point | {"hovertemplate": f"{label} at ω = %{{x:.4g}}<extra></extra>"}]
+    return [point | {"hovertemplate": f"{label} at ω = %{{x:.4g}} [rad/time unit]<extra></extra>"}]
 
 
 def _stroke(omega: float, start: float, end: float, label: str, axis: str, place: str) -> Trace:
@@ -194,7 +197,7 @@ def _stroke(omega: float, start: float, end: float, label: str, axis: str, place
         "text": [label, ""],
         "textposition": place,
         "marker": {"color": palette.U, "size": 6},
-        "hovertemplate": f"{label} at ω = {omega:.4g}<extra></extra>",
+        "hovertemplate": f"{label} at ω = {omega:.4g} [rad/time unit]<extra></extra>",
         "showlegend": False,
         "yaxis": axis,
     }

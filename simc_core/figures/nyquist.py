@@ -108,7 +108,7 @@ def _curve(name: str, omega: np.ndarray, L: np.ndarray, style: tuple[str, str, f
         *style,
         customdata=omega,
         showlegend=False,  # the time responses name the designs
-        hovertemplate="ω = %{customdata:.4g}<br>L = %{x:.4g} %{y:+.4g} j",
+        hovertemplate="ω = %{customdata:.4g} [rad/time unit]<br>L = %{x:.4g} %{y:+.4g} j",
     )
 
 

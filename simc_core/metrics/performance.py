@@ -1,25 +1,36 @@
 """Step metrics over an infinite horizon, from the piecewise polynomials of the engine (metrics.py).
 
 A response is followed until y and u stay within REST = 1e-10 of their largest value from where they end
-(one_delay/step_control.py). Truncation error: what a decaying mode still adds behind that, REST times its time
-constant. A loop that needs more than limits.MOST_TO_REST elements to come to rest is too close to its stability limit
-for that, and is told so.
+(one_delay/step_control.py). What the slowest mode, e^{-sigma t}, still adds behind that instant T is added in closed
+form,
+
+    IAE: |e(T)|/sigma    ITAE: |e(T)| (T/sigma + 1/sigma^2)
+
+and where it counts but is not that mode alone, the integral is nan: not known to better than KNOWN. A loop that needs
+more than limits.MOST_TO_REST elements to come to rest is too close to its stability limit for that, and is told so.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from simc_core.certificate.verdict import stability
-from simc_core.errors import NotStable
+from simc_core.certificate.characteristic import shifted
+from simc_core.certificate.poles import dominant_poles
+from simc_core.certificate.verdict import count_unstable, stability
+from simc_core.errors import InvalidParameter, NotStable
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
 from simc_core.metrics.nested_performance import NestedPerformance, nested_performance
 from simc_core.metrics.step_metrics import StepMetrics, Steps, metrics_of
+from simc_core.simulation.collocation.pieces import ENDS
 from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.simulate import settled
 
 OFFSET = 1e-7
+KNOWN = 1e-6  # relative, of an integral
+ROUNDING = 1e-12  # of the largest y, that a march leaves in y
+TINY = 1e-300
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +93,51 @@ def _of_single(loop: Loop) -> Performance:
     for name, offset, size in zip(("set-point", "load"), offsets.tolist(), largest.tolist(), strict=True):
         if abs(offset) > OFFSET * max(size, 1e-300):
             raise NotStable(f"IAE needs a loop that settles without offset, got {-offset:.4g} after a {name} step")
-    return Performance(*metrics_of(both_steps(course)))
+    found = metrics_of(both_steps(course))
+    tails = [_Tail(each, course, source) for source, each in enumerate(found)]
+    if not _no_mode_is_slower(loop, max(tail.negligible_rate() for tail in tails)):
+        poles = dominant_poles(loop, most=1)
+        found = [tail.added(poles[0].s) for tail in tails] if poles else found
+    return Performance(*found)
+
+
+def _no_mode_is_slower(loop: Loop, rate: float) -> bool:
+    """Whether all closed-loop poles lie to the left of -rate, by the certificate."""
+    try:
+        return count_unstable([shifted(loop.L, -rate)]).unstable_poles == 0
+    except InvalidParameter:  # too wild to be counted
+        return False
+
+
+class _Tail:
+    """What the integrals miss after the end of a course. source: 0, a step of the set point, or 1, of the load."""
+
+    def __init__(self, found: StepMetrics, course: UnitResponses, source: int):
+        self.found, self.length = found, float(course.length[-1])
+        self.T = float(course.begin[-1]) + self.length
+        self.left, self.right = (course.coefficients[0, source, -1] @ ENDS.T - (1.0, 0.0)[source]).tolist()
+        self.rounding = ROUNDING * abs(found.peak)
+        self.largest = max(abs(self.left), abs(self.right))
+
+    def negligible_rate(self) -> float:
+        """A mode that decays at this rate, or faster, adds less than is known of any integral."""
+        rest = (self.largest + self.rounding) / KNOWN
+        if not rest:
+            return 0.0
+        slowest = (math.sqrt(self.T**2 + 4 * self.found.ITAE / rest) - self.T) / 2  # T x + x^2 = ITAE/rest
+        return 1 / max(min(self.found.IAE / rest, slowest), TINY)
+
+    def added(self, slowest: complex) -> StepMetrics:
+        """The metrics with what a slowest mode adds; nan where what is left is not that mode alone and counts."""
+        sigma, decay = -slowest.real, math.exp(max(slowest.real * self.length, -700.0))
+        # all of an oscillation, and by how much a real mode misses its decay over the last piece
+        strange = self.largest if slowest.imag else abs(self.right - self.left * decay) / (1 - decay)
+        unknown = min(strange, self.largest) + self.rounding
+        values = {}
+        for name, factor in (("IAE", 1 / sigma), ("ITAE", self.T / sigma + 1 / sigma**2)):
+            whole = getattr(self.found, name) + abs(self.right) * factor
+            values[name] = whole if unknown * factor <= KNOWN * whole else math.nan
+        return replace(self.found, **values)
 
 
 def both_steps(course: UnitResponses) -> Steps:

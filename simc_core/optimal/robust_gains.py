@@ -78,20 +78,22 @@ class Shapes:
 class RobustGains:
     """Robust gains of many controllers round one plant.
 
-    omega: the grid (N,); fastest corners and slowest: those of the plant, and of the controllers 1/slowest.
+    omega: the grid (N,), which reaches beyond the corners of the plant, and 1/slowest of its controllers.
+    resolved: where it is so fine that no turn of the dead time goes unseen.
     """
 
     def __init__(self, plant: Plant, slowest: float = 0.0, more: Sequence[float] = ()):
         self.plant, self.G = plant, factored_plant(plant)
         self.response = FactoredResponse(self.G)
         self.omega = _grid(self.response, slowest, more)
+        self.resolved = self.omega <= (LAST / plant.theta if plant.theta else math.inf)
         self.on_grid = self.G(1j * self.omega)
 
     def gaps(self, shapes: Shapes, M: float, zooms: int = ZOOMS) -> list[list[Gap]]:
         """All gaps of each shape, ascending."""
         c = 1 - 1 / M**2
         owner, low, high, turn = self._runs(shapes, c, zooms)
-        cap = self._cap(shapes, M)
+        cap = self.cap(shapes, M)
         at_first = self._at_first(shapes)
         found: list[list[Gap]] = []
         begins = owner.searchsorted(np.arange(len(shapes.gains) + 1))
@@ -187,7 +189,7 @@ class RobustGains:
         order = np.where(shapes.gains[:, 2] != 0, 1, np.where(shapes.gains[:, 0] != 0, 0, -1))
         return self.G.relative_degree + (shapes.tau_F > 0) - order
 
-    def _cap(self, shapes: Shapes, M: float) -> np.ndarray:
+    def cap(self, shapes: Shapes, M: float) -> np.ndarray:
         """What |L(inf)| <= 1 - 1/M of a neutral loop allows."""
         if not self.plant.theta:
             return np.full(len(shapes.gains), math.inf)

@@ -111,7 +111,8 @@ class _Statements:
             self.used |= {"num", "den"}
         for name, part in self.lists.items():
             if name not in self.used:
-                raise self.fault(f"'{quoted(part.name)}' is a list of numbers and is not used: leave it out", part)
+                way_out = "leave it out" if self.functions else "name two lists num and den, or write tf([2], [10 1])"
+                raise self.fault(f"'{quoted(part.name)}' is a list of numbers and is not used: {way_out}", part)
         unused = {name: given for name, given in self.numbers.items() if name not in self.used}
         if not self.functions:
             return from_parameters(self.text, unused)

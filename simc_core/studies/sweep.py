@@ -22,7 +22,7 @@ from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins_many
-from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share
+from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share, too_much
 from simc_core.simulation.one_delay.march import march
 from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.scenario import instants
@@ -186,21 +186,15 @@ def _courses(
     for (*_, end), members in alike.items():
         at = 0
         while at < len(members):
-            course = march(plant, [forms[i] for i in members[at:]], end, share(len(forms)))
+            most = share(len(forms)) if end is None else (MOST_OF_ALL - work) / (len(members) - at)
+            course = march(plant, [forms[i] for i in members[at:]], end, most)
             some = members[at : at + len(course.at_rest)]
             at += len(some)
             if end is not None:
                 work += len(course.owner)
-                _check_work(work, len(forms), end)
+                if work > MOST_OF_ALL:
+                    raise InvalidParameter(too_much(end))
             yield np.array(some), course
-
-
-def _check_work(elements: int, tunings: int, t_end: float) -> None:
-    if elements > MOST_OF_ALL:
-        raise InvalidParameter(
-            f"{tunings} responses up to t = {t_end:.4g} must need at most {MOST_OF_ALL} elements, got more: ask for "
-            "fewer, or for shorter ones"
-        )
 
 
 def _at(course: UnitResponses, t: np.ndarray, disturbance_time: float, ramps: tuple[float, float]) -> np.ndarray:

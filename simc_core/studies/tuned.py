@@ -1,6 +1,7 @@
 """From a plant and what was chosen to the SIMC loop round the full plant; where the rule ends, what to do instead."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from simc_core.controllers.forms import Controller
@@ -90,7 +91,7 @@ def tuned(
         Where there is no model, or a number is out of bounds.
     """
     choices = {"order": order, "h": h, "tau_c": tau_c, "b": b, "filter": filter, "rules": rules, "speed": speed}
-    reduction = half_rule(plant, order, h, rules)
+    reduction = _reduced(plant, order, h, rules)
     try:
         return _closed(plant, choices, reduction)
     except InvalidParameter as error:
@@ -134,3 +135,8 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
         return RuleEnds(why + "order 2 gives no stable loop either, shorten the dead time")
     values = ", ".join(f"{name} = {number(value, 5)}" for name, value in other.controller.settings.items())
     return RuleEnds(f"{why}take PID (order 2): {values}, Ms = {number(other.margins.Ms, 4)}", {"order": 2})
+
+
+@lru_cache(maxsize=16)  # 2 s for a plant of forty poles, and every remedy that is tried asks for the same
+def _reduced(plant: Plant, order: int, h: float, rules: str) -> Reduction:
+    return half_rule(plant, order, h, rules)

@@ -39,7 +39,7 @@ def test_limits_are_typed_drawn_linked_and_taken_away_again(server, open_page):
 
 def test_every_view_says_that_the_loop_as_built_is_another(server, open_page):
     page = open_page(server + LIMITED)
-    for view in ("Live", "Figures", "Bode of L", "Model error", "Compare", "As built"):
+    for view in ("Live", "Bode of L", "Model error", "Compare", "As built"):
         page.get_by_role("tab", name=view).click()
         idle(page)
         box = page.locator(".st-key-mark_wide").bounding_box()

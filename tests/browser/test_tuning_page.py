@@ -10,9 +10,8 @@ PANELS = ("y", "u", "nyquist", "sensitivity")
 
 
 def figures(open_page, server, width=1280) -> Page:
-    """The tab of figures, open."""
-    page = open_page(f"{server}/tuning?plant={EXAMPLE}", width)
-    page.get_by_role("tab", name="Figures").click()
+    """The figures to export, open."""
+    page = open_page(f"{server}/tuning?plant={EXAMPLE}&view=figures", width)
     idle(page)
     return page
 

@@ -99,7 +99,7 @@ def test_each_field_refuses_in_words_and_the_last_good_value_stays(field):
         ("b", "2,5", "b must be ≤ 2, got 2.5"),
         ("b", "−1", "b must be ≥ 0, got −1"),
         ("filter", "11", "τF/τD must be ≤ 10, got 11"),
-        ("tau_c", "-3", "τc exactly must be > 0, got −3"),
+        ("tau_c", "-3", "τc, exact must be > 0, got −3"),
         ("tau_c", "1e12", "between 1e-09 and 1e+09, got 1e+12"),
         ("u_max", "-0,1", "Highest u must be ≥ 0, where the loop is at rest, got −0.1"),
         ("sampling", "−2", "Sampling of the controller must be ≥ 0, got −2"),

@@ -6,10 +6,9 @@ from pages.common.live.hand import table
 from pages.common.session import links
 from pages.common.session.design import Design
 from pages.common.studies.single import present_study, study_of_settings
-from pages.common.tuning.source import action
 from simc_core import IController, IdealPid, InvalidParameter, ParallelPid, Plant, SeriesPid, margins
 
-from .tools import address, run_page, texts
+from .tools import address, copyables, run_page, texts
 
 HEATER = "2.2exp(-20s)/(180s+1)"
 NOW = "ideal~1.2~240~0~0~1~0"
@@ -60,9 +59,42 @@ def test_a_design_stands_against_the_settings_in_the_plant_now():
     assert "Ms 1.29 → 1.6" in texts(app)
 
 
-def test_the_action_is_named():
-    assert action(SeriesPid(2.0, 3.0)).startswith("Reverse")
-    assert action(IController(-2.0)).startswith("Direct")
+def test_the_action_is_that_of_the_sign_of_the_gain():
+    assert SeriesPid(2.0, 3.0).action == ParallelPid(0, 0.1, 0).action == "reverse"
+    assert IController(-2.0).action == IdealPid(-1.0, 5.0).action == "direct"
+
+
+def test_a_negative_gain_is_shown_as_its_size_and_direct_action():
+    """-1.5 exp(-4s)/(20s+1): Kc = 20/(-1.5 * 8) = -1.667, and nobody types a minus into a control system."""
+    units = {"unit": "min", "OP_unit": "%", "PV_unit": "°C"}
+    app = run_page("tuning", "Bode of L", plant="-1.5 exp(-4s)/(20s+1)", **units)
+    (text,) = [text for text in copyables(app) if " = " in text]
+    assert text == "Kc = 1.666666667 %/°C\ntau_I = 20 min\ntau_D = 0 min\naction = direct"
+    (shown,) = [item.proto.body for item in app.get("html") if 'class="settings"' in item.proto.body]
+    assert "<b>1.667</b> %/°C" in shown
+    assert "<b>direct</b>" in shown
+
+
+def test_my_settings_are_typed_as_sizes_with_an_action():
+    app = run_page(
+        "tuning", "Bode of L", plant="-2.2exp(-20s)/(180s+1)", own="ideal~-1.2~240~0~0~1~0", controller="own"
+    )
+    assert app.text_input("own_IdealPid_Kc").value == "1.2"
+    app.text_input("own_IdealPid_Kc").set_value("2").run()
+    assert address(app)["own"] == "ideal~-2~240~0~0~1~0"
+    app.text_input("own_IdealPid_Kc").set_value("-3").run()
+    assert "must be > 0, got −3: its sign is the action" in app.error[0].value
+    app.segmented_control("own_action").set_value("reverse").run()
+    assert address(app)["own"] == "ideal~2~240~0~0~1~0"
+
+
+def test_times_and_gains_have_the_units_of_the_loop_sheet():
+    units = {"unit": "min", "OP_unit": "%", "PV_unit": "°C"}
+    app = run_page("tuning", "Compare", plant=HEATER, **units)
+    table = next(frame.value for frame in app.dataframe if "present" in frame.value)
+    assert {"τc [min]", "Kp [%/°C]", "IAE, load [°C min]", "TV, load [%]"} <= set(table.iloc[:, 0])
+    assert app.text_input("tau_c_exact").label == "τc, exact [min]"
+    assert "θ = 20 min is its effective dead time" in texts(app)
 
 
 def test_own_settings_of_every_form_can_be_judged_and_pinned():

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pages.common.parts.units import unit_of
 from pages.common.session.design import Actuator, Design, Tuning, in_time_unit, put
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import study
@@ -96,3 +97,9 @@ def test_another_unit_converts_what_is_on_the_page_and_says_so():
     app.selectbox(key="sheet_unit").set_value("min").run()
     assert parse_plant(address(app)["plant"]).lags == (3.0,)
     assert "converted from s to min" in texts(app)
+
+
+def test_a_unit_within_another_is_read_in_one_way():
+    level = Sheet(time_unit="min", PV_unit="m", OP_unit="m3/h")
+    assert [unit_of(what, level) for what in ("OP", "OP/PV", "PV time")] == ["m3/h", "(m3/h)/m", "m min"]
+    assert unit_of("OP/PV", Sheet(OP_unit="%")) == ""

@@ -49,7 +49,7 @@ def test_a_link_with_facts_opens_with_them():
 
 def test_where_63_per_cent_counts_from_is_a_choice():
     app = opened(plant="2.2 exp(-20 s)/(160 s + 1)", facts="step~5~11~20~180")
-    app.segmented_control("plant_step_kind").set_value("Settles, 63 % from first movement").run()
+    app.segmented_control("plant_step_kind").set_value("63 % from movement").run()
     assert parse_plant(address(app)["plant"]) == Plant(2.2, 20.0, (160.0,))  # nothing is reinterpreted
     fill(app, tau1="180")
     assert parse_plant(address(app)["plant"]) == Plant(2.2, 20.0, (180.0,))

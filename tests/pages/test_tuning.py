@@ -25,7 +25,9 @@ def tuned(view="Figures", plant=EXAMPLE, **parameters):
 def copied(app):
     """The settings as the copy button gives them, as numbers; the link in the sidebar is another of its kind."""
     (text,) = [text for text in copyables(app) if " = " in text]
-    return {name: float(value) for name, value in (line.split(" = ") for line in text.splitlines())}
+    lines = dict(line.split(" = ") for line in text.splitlines())
+    assert lines.pop("action") == "reverse"
+    return {name: float(value) for name, value in lines.items()}
 
 
 def strip(app):
@@ -42,7 +44,7 @@ def test_the_pi_controller_of_the_literature_is_on_the_screen():
     settings = copied(app)
     assert settings["Kc"] == pytest.approx(0.57, abs=0.005)  # [V06] example 1
     assert settings["tau_I"] == pytest.approx(8)
-    assert "0.5714" in texts(app)
+    assert any("<b>0.5714</b>" in item.proto.body for item in app.get("html"))
     assert len(specs(app)) == PANELS
 
 
@@ -240,6 +242,16 @@ def test_every_kind_of_model_has_a_page_in_every_form(plant, view):
         app = tuned(view, plant, order="2", form=form)
         assert not app.error
         assert len(specs(app)) == {"Figures": PANELS, "Bode of L": 1}.get(view, 0)
+
+
+def test_a_link_to_the_former_tab_of_figures_opens_the_figures_to_export():
+    app = tuned()  # by ?view=figures
+    assert app.session_state["views"] == "Live"
+    assert len(specs(app)) == PANELS
+    assert "view" not in address(app)
+    assert not texts(app).count("ignored")
+    app.segmented_control("drag").set_value("settings").run()
+    assert not specs(app)
 
 
 def test_poles_are_listed_with_their_damping():

@@ -20,7 +20,9 @@ def run_page(name: str, view: str = "", tabs: str = "views", **parameters: str) 
 
 def _run(script: Path, parameters: dict[str, str], view: str = "", tabs: str = "views") -> AppTest:
     app = AppTest.from_file(str(script), default_timeout=30)
-    if view:
+    if (tabs, view) == ("views", "Figures"):
+        parameters = parameters | {"view": "figures"}  # as former links had it
+    elif view:
         app.session_state[tabs] = view
     app.query_params.update(parameters)
     app.run()

@@ -10,6 +10,7 @@ from html import escape
 
 import streamlit as st
 
+from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy
 from simc_core.controllers.forms import Controller
 from simc_core.notation import latex_factors, number, plain
@@ -151,7 +152,8 @@ def _svg_text(latex: str) -> str:
 
 def _setting(name: str, value: float) -> str:
     letter, index = GREEK.get(name, (name[0], name[-1]))
-    return f"{_indexed(letter, index)} = {escape(number(value))}"
+    unit = state.design_now().sheet.time_unit if letter == "τ" else ""
+    return f"{_indexed(letter, index)} = {escape(number(value))} {unit}".rstrip()
 
 
 def _indexed(letter: str, index: str) -> str:

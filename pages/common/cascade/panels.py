@@ -3,6 +3,8 @@
 import streamlit as st
 
 from pages.common.parts.panel import Panel, field, show
+from pages.common.parts.units import time_text
+from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy, frequency_responses, starts, time_responses
 from simc_core.figures import (
     inner_output_figure,
@@ -13,7 +15,6 @@ from simc_core.figures import (
     output_figure,
 )
 from simc_core.figures.curves import bode_curve, nested_bode_curve
-from simc_core.notation import number
 from simc_core.sensitivity.margins import crossings
 
 HEIGHT, TALL = 203, 400  # px
@@ -37,10 +38,10 @@ def panels(study: CascadeStudy) -> None:
             ),
         )
     )
-    d1, d2 = starts(curves[0][1])
+    d1, d2 = (time_text(begins, state.design_now().sheet) for begins in starts(curves[0][1]))
     st.caption(
-        f"Unit steps: set point at t = 0, $d_1$ at the input of $G_a$ at t = {number(d1)}, $d_2$ at the input of $G_b$ "
-        f"at t = {number(d2)}; time in the unit of your time constants. Dashed: one PID controller for $G_a G_b$, "
+        f"Unit steps: set point at t = 0, $d_1$ at the input of $G_a$ at t = {d1}, $d_2$ at the input of $G_b$ "
+        f"at t = {d2}. Dashed: one PID controller for $G_a G_b$, "
         "without the measurement of $y_2$. Both blocks with their exact dead times."
     )
 

@@ -5,6 +5,7 @@ import streamlit as st
 from pages.common.parts.copyable import copyable
 from pages.common.parts.settings_text import STRUCTURE, as_text
 from pages.common.parts.symbols import symbols
+from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import FormError
@@ -29,6 +30,6 @@ def settings(study: CascadeStudy) -> None:
 def _in_form(name: str, controller: Controller, form: str) -> None:
     st.markdown(f"{form}: ${STRUCTURE[form]}$")
     try:
-        copyable(as_text(controller, form), f"settings_{name}_{form}")
+        copyable(as_text(controller, form, state.design_now().sheet), f"settings_{name}_{form}")
     except FormError as error:
         st.info(symbols(f"No {form} form: {error}"))

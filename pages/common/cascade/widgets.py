@@ -7,6 +7,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
+from pages.common.parts.units import time_text
 from pages.common.plant.entry import plant_entry
 from pages.common.session import state
 from pages.common.session.design import KINDS, METHODS, Cascade
@@ -132,7 +133,7 @@ def _meaning(cascade: Cascade) -> str:
 
 def _outcome(loop: str, asked: str, study: CascadeStudy) -> str:
     """What the choice comes to."""
-    speed = f"${speed_symbol(study.cascade)}$ = {number(study.speeds[loop == 'outer'])}"
+    speed = f"${speed_symbol(study.cascade)}$ = {time_text(study.speeds[loop == 'outer'], state.design_now().sheet)}"
     if not study.sound:
         return speed
     peak = f"$M_s$ = {number(getattr(study, loop).Ms)}"
@@ -164,6 +165,7 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
     design_number(
         name,
         f"{symbol} of the {loop} loop, exact",
+        quantity="time" if asked == "tau_c" else "",
         key=f"{name}_exact",
         place=place,
         under=st.container(),

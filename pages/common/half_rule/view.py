@@ -8,6 +8,7 @@ from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.rules_choice import rules_choice
 from pages.common.parts.symbols import sentence, symbols
+from pages.common.parts.units import with_plain_unit
 from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.figures import bode_figure, budget_figure, model_error_figure, plant_step_figure
@@ -38,6 +39,7 @@ def choices() -> None:
     design_number(
         "h",
         "Sampling allowed for in θ",
+        quantity="time",
         place=h,
         under=st.container(),
         help="Sampling period of a digital controller; half of it counts as dead time. 0: continuous.",
@@ -70,7 +72,7 @@ def candidates(reduction: Reduction) -> None:
     st.dataframe(
         [
             {
-                "θ": number(each.theta),
+                with_plain_unit("θ", state.design_now().sheet.time_unit): number(each.theta),
                 "Ms, tight loop around the plant": number(each.Ms) if math.isfinite(each.Ms) else "no stable loop",
                 "load error at Ms = 1.6": number(each.load_error, 3) if math.isfinite(each.load_error) else "none",
                 "taken": "chosen" if each.chosen else "",
@@ -109,10 +111,12 @@ def comparison(study: Study) -> None:
 
 def numbers(compared: ModelError) -> None:
     """The error as numbers, and what they mean."""
+    unit = state.design_now().sheet.time_unit
+    frequency = f" rad/{unit}" if unit else ""
     fraction = "" if math.isnan(compared.step_fraction) else f", {number(100 * compared.step_fraction, 3)} % of $k$"
     st.markdown(
         f"Largest difference of the step responses **{number(compared.step_difference, 3)}**{fraction}, "
-        f"at $t = {latex_number(compared.step_time, 3)}.$"
+        f"at $t = {latex_number(compared.step_time, 3)}${unit and ' '}{unit}."
     )
     place, words = VERDICTS[compared.verdict]
     share = (
@@ -120,7 +124,7 @@ def numbers(compared: ModelError) -> None:
         if math.isnan(compared.used)
         else (
             f": at worst $|G - G_r|\\,|T|/|G_r|$ = {number(compared.used, 3)} at $\\omega = "
-            f"{latex_number(compared.omega_used, 3)}$, limit 1 [RMS86 eq. 10]."
+            f"{latex_number(compared.omega_used, 3)}${frequency}, limit 1 [RMS86 eq. 10]."
         )
     )
     if compared.error[0] >= 1:

@@ -11,11 +11,12 @@ from simc_core.studies.bands import ROBUST
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """label with its unit in brackets.   meaning: in a sentence.   factor: from the core's number to what is shown."""
+    """label, meaning in a sentence.   factor: from the core's number to what is shown.   unit: see unit_of."""
 
     label: str
     meaning: str
     factor: float = 1.0
+    unit: str = ""
 
     def text(self, value: float) -> str:
         """The number as shown."""
@@ -34,16 +35,18 @@ QUANTITIES = {
     "GM": Quantity("Gain margin", "factor on the plant gain at which the loop becomes unstable"),
     "GM_lower": Quantity("Gain margin, lower", "factor below 1 on the plant gain at which the loop becomes unstable"),
     "PM_deg": Quantity("Phase margin [°]", "phase the loop may lose at |L| = 1 before it becomes unstable"),
-    "delay_margin": Quantity("Delay margin", "dead time that may be added before the loop becomes unstable"),
-    "IAE_setpoint": Quantity("IAE set point", f"{_IAE} the set point, over all time"),
-    "IAE_disturbance": Quantity("IAE load", f"{_IAE} the load, over all time"),
-    "IAE_d1": Quantity("IAE d₁", f"{_IAE} the load d₁ at the input of Ga, over all time"),
-    "IAE_d2": Quantity("IAE d₂", f"{_IAE} the load d₂ at the input of Gb, over all time"),
-    "TV_setpoint": Quantity("TV set point", f"{_TV} the set point"),
-    "TV_disturbance": Quantity("TV load", f"{_TV} the load"),
+    "delay_margin": Quantity(
+        "Delay margin", "dead time that may be added before the loop becomes unstable", unit="time"
+    ),
+    "IAE_setpoint": Quantity("IAE set point", f"{_IAE} the set point, over all time", unit="PV time"),
+    "IAE_disturbance": Quantity("IAE load", f"{_IAE} the load, over all time", unit="PV time"),
+    "IAE_d1": Quantity("IAE d₁", f"{_IAE} the load d₁ at the input of Ga, over all time", unit="PV time"),
+    "IAE_d2": Quantity("IAE d₂", f"{_IAE} the load d₂ at the input of Gb, over all time", unit="PV time"),
+    "TV_setpoint": Quantity("TV set point", f"{_TV} the set point", unit="OP"),
+    "TV_disturbance": Quantity("TV load", f"{_TV} the load", unit="OP"),
     "overshoot": Quantity("Overshoot [%]", "of y beyond a unit step of the set point", 100.0),
-    "peak_disturbance": Quantity("Peak of y, unit load", "how far y goes at most after a unit step of the load"),
-    "settling_setpoint": Quantity("Settling set point", f"{_SETTLING} the set point"),
-    "settling_disturbance": Quantity("Settling load", f"{_SETTLING} the load"),
-    "noise_gain": Quantity("Noise gain", "largest |K S|: from measurement noise to the input u"),
+    "peak_disturbance": Quantity("Peak of y, unit load", "how far y goes after a unit step of the load", unit="PV"),
+    "settling_setpoint": Quantity("Settling set point", f"{_SETTLING} the set point", unit="time"),
+    "settling_disturbance": Quantity("Settling load", f"{_SETTLING} the load", unit="time"),
+    "noise_gain": Quantity("Noise gain", "largest |K S|: from measurement noise to the input u", unit="OP/PV"),
 }

@@ -1,26 +1,51 @@
-"""A controller in the form chosen: its structure for the eye, its settings as text to copy."""
+"""A controller as it is typed into a control system: sizes of its settings, its action, their units. Pure."""
 
 import math
 
-from simc_core.controllers.forms import Controller
+from pages.common.parts.units import unit_of
+from pages.common.session.sheet import Sheet
+from simc_core.controllers.forms import Controller, IController
 
 STRUCTURE = {
     "series": r"K_c \frac{\tau_I s+1}{\tau_I s}(\tau_D s+1)",
     "ideal": r"K_c \left(1+\frac{1}{\tau_I s}+\tau_D s\right)",
     "parallel": r"K_p+\frac{K_i}{s}+K_d s",
 }
+UNITS = {
+    **dict.fromkeys(("Kc", "Kp"), "OP/PV"),
+    **dict.fromkeys(("Ki", "K_I"), "OP/(PV time)"),
+    "Kd": "OP time/PV",
+    **dict.fromkeys(("tau_I", "tau_D", "tau_F"), "time"),
+}
+ACTIONS = {"reverse": "The output falls when PV rises.", "direct": "The output rises when PV rises."}
 
 
-def as_text(controller: Controller, form: str) -> str:
-    """Settings as lines `name = value`, ten digits; for the control system, not for the eye.
+def structure(controller: Controller, form: str) -> str:
+    """C(s) in this form, as LaTeX, with the sign that a control system calls direct action."""
+    formula = r"\frac{K_I}{s}" if isinstance(controller, IController) else STRUCTURE[form]
+    if controller.action == "reverse":
+        return formula
+    return rf"-\left({formula}\right)" if form == "parallel" and "+" in formula else f"-{formula}"
+
+
+def sizes(controller: Controller) -> dict[str, float]:
+    """The settings of its form with the gain positive; the action tells its sign."""
+    sign = 1.0 if controller.action == "reverse" else -1.0
+    return {name: sign * value if name.startswith("K") else value for name, value in controller.settings.items()}
+
+
+def as_text(controller: Controller, form: str, sheet: Sheet) -> str:
+    """Settings as lines `name = value unit`, ten digits, and the action; for the control system, not for the eye.
 
     Raises FormError.
     """
     shown = controller.in_form(form)
-    values = shown.settings
+    values = sizes(shown)
     if shown.OPTIONAL:
         values |= {"tau_F": shown.tau_F} if shown.tau_F else {}
         values |= {"b": shown.b} if shown.b != 1 else {}
-    return "\n".join(
-        f"{name} = {'no integral' if math.isinf(value) else f'{value:.10g}'}" for name, value in values.items()
-    )
+    lines = [
+        f"{name} = no integral" if math.isinf(value) else f"{name} = {value:.10g} {unit_of(UNITS.get(name, ''), sheet)}"
+        for name, value in values.items()
+    ]
+    return "\n".join([*(line.rstrip() for line in lines), f"action = {controller.action}"])

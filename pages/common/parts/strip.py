@@ -5,23 +5,27 @@ from dataclasses import dataclass
 from html import escape
 
 from pages.common.parts.quantities import QUANTITIES
+from pages.common.parts.units import unit_of
+from pages.common.session import state
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.bands import band_of
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """One cell. text: as shown.   exact: on hover, with what it means."""
+    """One cell. text: as shown, and its unit.   exact: on hover, with what it means."""
 
     label: str
     text: str
     exact: str
     meaning: str
+    unit: str = ""
 
 
 def cell_html(cell: Reading) -> str:
     """One cell of the strip."""
-    return f'<div title="{hover(cell)}"><small>{escape(cell.label)}</small><b>{cell.text}</b></div>'
+    unit = f" <i>{escape(cell.unit)}</i>" if cell.unit else ""
+    return f'<div title="{hover(cell)}"><small>{escape(cell.label)}</small><b>{cell.text}</b>{unit}</div>'
 
 
 def peak_html(cell: Reading, Ms: float) -> str:
@@ -46,13 +50,16 @@ def reading(name: str, value: float, label: str = "") -> Reading:
         exact = "infinite: no limit"
     if math.isnan(value):
         exact = "no number: the loop keeps an offset (no integral action), or does not come to rest in reach"
-    return Reading(label or quantity.label, quantity.text(value), exact, quantity.meaning)
+    unit = unit_of(quantity.unit, state.design_now().sheet)
+    return Reading(label or quantity.label, quantity.text(value), exact, quantity.meaning, unit)
 
 
 def pair(label: str, names: tuple[str, str], values: tuple[float, float]) -> Reading:
     """Two quantities in one cell."""
     first, second = (reading(name, value) for name, value in zip(names, values, strict=True))
-    return Reading(label, f"{first.text} · {second.text}", f"{first.exact} · {second.exact}", second.meaning)
+    return Reading(
+        label, f"{first.text} · {second.text}", f"{first.exact} · {second.exact}", second.meaning, second.unit
+    )
 
 
 def gain_margin(judged: Margins) -> Reading:

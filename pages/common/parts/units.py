@@ -5,6 +5,7 @@ from html import escape
 
 from pages.common.parts.foreign_text import exact
 from pages.common.session.sheet import Sheet
+from simc_core.notation import number
 
 PLAIN = re.compile(r"(?:[^\W_]|[%°/·⁻²³ ()])*")  # nothing in it that Markdown or Streamlit would read as more than text
 
@@ -29,7 +30,7 @@ def named(text: str, sheet: Sheet) -> str:
 
 
 def axes_named(figure: dict, sheet: Sheet) -> dict:
-    """A figure in plotly's schema with its axes named; plotly reads markup in titles, so foreign signs are escaped."""
+    """A figure in plotly's schema with axes and hover texts named; plotly reads markup: foreign signs are escaped."""
     safe = {place: escape(unit, quote=False) for place, unit in labels(sheet).items()}
     for name, axis in figure["layout"].items():
         if name[1:5] == "axis" and safe:
@@ -39,6 +40,9 @@ def axes_named(figure: dict, sheet: Sheet) -> dict:
                 for place, unit in safe.items():
                     text = text.replace(place, unit)
                 axis["title"] = {**title, "text": text} if isinstance(title, dict) else text
+    for trace in figure["data"] if sheet.time_unit else ():
+        if "[rad/time unit]" in trace.get("hovertemplate", ""):
+            trace["hovertemplate"] = trace["hovertemplate"].replace("[rad/time unit]", f"rad/{sheet.time_unit}")
     return figure
 
 
@@ -47,7 +51,19 @@ def unit_of(what: str, sheet: Sheet) -> str:
     units = {"time": sheet.time_unit, "PV": sheet.PV_unit, "OP": sheet.OP_unit}
     if not all(units[name] for name in re.findall("time|PV|OP", what)):
         return ""
-    return re.sub("time|PV|OP", lambda found: units[found[0]], what)
+    if what in units:
+        return units[what]
+    return re.sub("time|PV|OP", lambda found: _factor(units[found[0]]), what)
+
+
+def _factor(unit: str) -> str:
+    """A unit within another one: m3/h in brackets, so that (m3/h)/m is read in one way."""
+    return f"({unit})" if "/" in unit else unit
+
+
+def time_text(value: float, sheet: Sheet, digits: int = 4) -> str:
+    """A time as a number with its unit, where that has a name."""
+    return f"{number(value, digits)} {sheet.time_unit}".rstrip()
 
 
 def with_unit(label: str, unit: str) -> str:

@@ -6,7 +6,7 @@ from simc_core import checks
 from simc_core.plants.step_facts import SettlingFacts, SlopeFacts, StepFacts
 
 FACTS = {"plant": "facts", "Ga": "Ga_facts", "Gb": "Gb_facts"}
-FROM_STEP, FROM_MOVEMENT, SLOPE = "Settles, 63 % from the step", "Settles, 63 % from first movement", "Integrating"
+FROM_STEP, FROM_MOVEMENT, SLOPE = "63 % from step", "63 % from movement", "Integrating"
 FIELDS = {
     "dOP": Field("Change of OP", checks.gain, unit="OP", help="With its sign: from 40 to 45 is 5."),
     "dPV": Field("Change of PV, to its new rest", checks.gain, unit="PV", help="With its sign."),

@@ -33,6 +33,8 @@ SENT_AGAIN = 5.0  # seconds for which a value put into a widget may be overtaken
 def begin() -> Design:
     """Read the address if it is new, then make it show the design. May be called more than once a run."""
     given = st.query_params.to_dict()
+    if asked := given.pop("view", ""):
+        st.session_state["asked_view"] = asked
     if given and given != st.session_state.get("address") and not _late(given):
         design, ignored = links.decode(given)
         _keep(loops().with_design(design))
@@ -242,6 +244,11 @@ def overtaken(key: str) -> bool:
     """
     former, until = st.session_state.get("replaced", {}).get(key, (None, 0.0))
     return monotonic() < until and st.session_state.get(key) == former
+
+
+def asked_view() -> str:
+    """The view that a link asked for, told once; empty for none."""
+    return st.session_state.pop("asked_view", "")
 
 
 def ignored() -> list[Ignored]:

@@ -9,7 +9,7 @@ from streamlit.delta_generator import DeltaGenerator
 from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.refusals import explain_refusal
-from pages.common.parts.units import with_plain_unit, with_unit
+from pages.common.parts.units import time_text, with_plain_unit, with_unit
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
@@ -58,7 +58,7 @@ def words(design: Design) -> str:
     if actuator.noise:
         found.append(f"measurement noise {number(actuator.noise)}")
     if actuator.h:
-        found.append(f"sampled every {number(actuator.h)}")
+        found.append(f"sampled every {time_text(actuator.h, sheet)}")
     return ", ".join(found)
 
 
@@ -95,7 +95,7 @@ def _inputs(design: Design) -> None:
         _limit("Highest", "u_max", design, under)
         _number("Tracking time", "T_t", TRACKING, "automatic", unit="time", under=under)
         _number("Sampling of the controller", "sampling", SAMPLING, unit="time", under=under)
-        _number("Measurement noise (std. dev.)", "noise", NOISE, unit="PV", under=under)
+        _number("Noise (std. dev.)", "noise", NOISE, unit="PV", under=under)
         _number("Random seed", "seed", "The same number gives the same noise.", under=under)
     _range_of_OP(design)
 
@@ -210,15 +210,19 @@ def explained(found: AsBuilt, study: Study, design: Design) -> str:
     actuator, asked = design.actuator, design.excitation
     lines = [
         f"Set point {number(asked.setpoint)} from t = 0"
-        + (f", load {number(asked.disturbance)} from t = {number(begins[0])}." if len(begins) else ".")
+        + (f", load {number(asked.disturbance)} from t = {time_text(begins[0], design.sheet)}." if len(begins) else ".")
     ]
     if found.actuation.limited and math.isfinite(found.T_t):
-        lines.append(f"Tracking time $T_t$ = {number(found.T_t)}; dotted: the same without anti-windup.")
+        lines.append(
+            f"Tracking time $T_t$ = {time_text(found.T_t, design.sheet)}; dotted: the same without anti-windup."
+        )
     if found.unprotected is not None and found.numbers is not None and not found.actuation.noise:
         both = {"with anti-windup": found.built, "without": found.unprotected}
         lines.append(protections_compared({name: error_integral(c.t, c.r, c.y) for name, c in both.items()}))
     if found.actuation.noise:
-        lines.append(f"The noise takes a new value every {number(found.step)}, the step of the controller.")
+        lines.append(
+            f"The noise takes a new value every {time_text(found.step, design.sheet)}, the step of the controller."
+        )
     if found.actuation.h:
         lines.append(
             "The half rule can allow for the sampling: its own h, on the half rule page "

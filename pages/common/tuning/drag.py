@@ -8,11 +8,20 @@ from pages.common.studies.single import Study
 from pages.common.tuning.source import change_in_words
 from simc_core.plants.plant import Plant
 
-KNOBS = {"tau_c": "τc", "settings": "Settings", "plant": "What if the plant changes"}
+STILL = "still"
+KNOBS = {"tau_c": "τc", "settings": "Settings", "plant": "What if the plant changes", STILL: "Nothing: to export"}
 
 
-def drag(plant: Plant, present: Study, behind: list[tuple[str, Study]]) -> None:
-    """The choice of what is dragged, and its instrument. behind: designs that are drawn behind, by name."""
+def dragged() -> bool:
+    """Whether there is an instrument with knobs; else the figures stand still."""
+    return state.widget("drag") != STILL
+
+
+def drag(plant: Plant, present: Study, behind: list[tuple[str, Study]]) -> str:
+    """The choice of what is dragged, and its instrument; for STILL the caller draws.
+
+    behind: designs that are drawn behind, by name.
+    """
     offered = [name for name in KNOBS if name != "tau_c" or present.tuned]
     if state.widget("drag", offered[0]) not in offered:
         state.set_widget("drag", offered[0])
@@ -30,8 +39,9 @@ def drag(plant: Plant, present: Study, behind: list[tuple[str, Study]]) -> None:
         live.tuning_instrument(plant, [("present", present), *behind])
     elif chosen == "settings":
         live.hand_instrument(present, behind, settings=True)
-    else:
+    elif chosen == "plant":
         _what_if(present, behind)
+    return chosen
 
 
 def _what_if(present: Study, behind: list[tuple[str, Study]]) -> None:

@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common.parts.symbols import spoken, symbols
+from pages.common.parts.units import with_plain_unit
 from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
@@ -42,7 +43,8 @@ def words(item: Advice) -> str:
 def poles(study: Study) -> None:
     """Dominant closed-loop poles with their damping."""
     with st.expander("Dominant closed-loop poles"):
-        rows = [pole_row(pole) for pole in dominant_poles(study.loop)]
+        unit = state.design_now().sheet.time_unit
+        rows = [pole_row(pole, unit) for pole in dominant_poles(study.loop)]
         if rows:
             st.dataframe(rows, hide_index=True, width="content")
         else:
@@ -53,13 +55,13 @@ def poles(study: Study) -> None:
         )
 
 
-def pole_row(pole: ClosedLoopPole) -> dict[str, str]:
-    """A line of the table of poles."""
+def pole_row(pole: ClosedLoopPole, unit: str = "") -> dict[str, str]:
+    """A line of the table of poles; unit: of time."""
     s = pole.s
     return {
         "pole": number(s.real) + (f" ± {number(s.imag)} i" if s.imag else ""),
         "damping ζ": number(pole.zeta),
-        "frequency |s|": number(pole.omega_n),
-        "time constant": number(-1 / s.real) if s.real < 0 else "does not decay",
+        with_plain_unit("frequency |s|", unit and f"rad/{unit}"): number(pole.omega_n),
+        with_plain_unit("time constant", unit): number(-1 / s.real) if s.real < 0 else "does not decay",
         "cancelled for set-point changes": "yes" if pole.cancelled else "",
     }

@@ -7,7 +7,10 @@ import streamlit as st
 
 from pages.common.parts.panel import show
 from pages.common.parts.symbols import symbols
+from pages.common.parts.units import time_text
+from pages.common.session import state
 from pages.common.session.design import Excitation
+from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from simc_core.figures.robustness import band_figure, bundle_figure
 from simc_core.loops.frequency_grid import omega_grid
@@ -65,15 +68,15 @@ def summary(study: Study, found: Robustness, percent: int) -> str:
             f"among them {symbols(worst.name)}.{remedy}"
         )
     if study.stable:
-        lines.append(limits(study.loop, found))
+        lines.append(limits(study.loop, found, state.design_now().sheet))
     return "  \n".join(lines)
 
 
-def limits(loop: Loop, found: Robustness) -> str:
+def limits(loop: Loop, found: Robustness, sheet: Sheet) -> str:
     """The exact largest changes of k and of theta, each alone."""
     high = "any higher" if math.isinf(found.k_high) else f"up to {number(found.k_high)} times"
     low = "any lower" if found.k_low == 0 else f"down to {number(found.k_low)} times"
-    more = "any longer" if math.isinf(found.theta_more) else f"up to {number(found.theta_more)} longer"
+    more = "any longer" if math.isinf(found.theta_more) else f"up to {time_text(found.theta_more, sheet)} longer"
     theta = loop.plant.theta
     share = f" ({100 * found.theta_more / theta:.3g} %)" if theta and math.isfinite(found.theta_more) else ""
     return f"One at a time, exact: gain {high}, or {low}; dead time {more}{share}."

@@ -5,6 +5,8 @@ from dataclasses import replace
 
 import streamlit as st
 
+from pages.common.parts.settings_text import sizes
+from pages.common.parts.units import unit_of, with_plain_unit
 from pages.common.session import state
 from pages.common.session.design import MOST_PINS, Tuning
 from pages.common.studies.single import Study, study, study_of_settings
@@ -15,11 +17,18 @@ from simc_core.plants.plant import Plant
 
 LETTERS = "ABCD"
 LABELS = (
-    *("controller", "τc", "Kp", "Ki", "Kd", "τF", "b"),
+    *("controller", "action", "τc", "Kp", "Ki", "Kd", "τF", "b"),
     *("Ms", "Mt", "GM", "GM, lower limit", "PM, degrees", "delay margin"),
     *("IAE, set point", "IAE, load", "TV, set point", "TV, load"),
     *("overshoot, %", "settling, set point", "settling, load"),
 )
+
+UNITS = {
+    **dict.fromkeys(("τc", "τF", "delay margin", "settling, set point", "settling, load"), "time"),
+    **dict.fromkeys(("IAE, set point", "IAE, load"), "PV time"),
+    **dict.fromkeys(("TV, set point", "TV, load"), "OP"),
+    **{"Kp": "OP/PV", "Ki": "OP/(PV time)", "Kd": "OP time/PV"},
+}
 
 
 def pinned_studies(plant: Plant, pins: tuple[Tuning | Controller, ...]) -> list[tuple[str, Study]]:
@@ -55,7 +64,12 @@ def pin_button(present: Study) -> None:
 def design_table(studies: list[tuple[str, Study]]) -> None:
     """One column a design, present first; a loop that is not stable has no figures."""
     columns = {name: facts(each) for name, each in studies}
-    rows = [{"quantity": label} | {name: each.get(label, "–") for name, each in columns.items()} for label in LABELS]
+    sheet = state.design_now().sheet
+    rows = [
+        {"quantity": with_plain_unit(label, unit_of(UNITS.get(label, ""), sheet))}
+        | {name: each.get(label, "–") for name, each in columns.items()}
+        for label in LABELS
+    ]
     wide = {"quantity": st.column_config.TextColumn(width="medium")}
     st.dataframe(
         rows, hide_index=True, width="content", height="content", row_height=27, column_config=wide, key="designs"
@@ -74,8 +88,9 @@ def facts(each: Study) -> dict[str, str]:
     settings = each.controller.to_parallel()
     kind = "PID" if settings.Kd else "PI" if settings.Kp else "I"
     tau_c = math.nan if each.tau_c is None else each.tau_c
-    numbers = (tau_c, settings.Kp, settings.Ki, settings.Kd, settings.tau_F, settings.b)
-    found = [kind, *map(number, numbers)]
+    gains = sizes(settings)
+    numbers = (tau_c, gains["Kp"], gains["Ki"], gains["Kd"], settings.tau_F, settings.b)
+    found = [kind, settings.action, *map(number, numbers)]
     if not each.stable:
         return dict(zip(LABELS, [*found, "not stable"], strict=False))
     judged, metrics = each.margins, each.performance

@@ -16,7 +16,7 @@ HEIGHT = 420  # px
 
 def choices() -> None:
     """All that may be the cause of a refusal stays to be chosen otherwise."""
-    design_number("tau_c", "τc, exact", key="tau_c_exact", optional=True, placeholder="tight")
+    design_number("tau_c", "τc, exact", quantity="time", key="tau_c_exact", optional=True, placeholder="tight")
     structure()
     rules_choice()
 

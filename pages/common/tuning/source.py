@@ -7,10 +7,12 @@ from dataclasses import replace
 import streamlit as st
 
 from pages.common.parts.number_field import number_field
+from pages.common.parts.settings_text import UNITS
+from pages.common.parts.units import unit_of
 from pages.common.session import state
 from pages.common.studies.single import Study, study_of_settings
 from simc_core.controllers.forms import FORMS, Controller, IdealPid
-from simc_core.errors import SimcError
+from simc_core.errors import InvalidParameter, SimcError
 from simc_core.plants.plant import Plant
 from simc_core.studies.retune import what_changes
 
@@ -62,7 +64,8 @@ def my_settings(made: Study | None) -> None:
 
 
 def settings_fields(controller: Controller, key: str, take: Callable[[Controller], None]) -> None:
-    """The settings of a controller as number fields, in its own form."""
+    """The settings of a controller as number fields, in its own form: sizes of gains, and the action beside them."""
+    _action(controller, key, take)
     names = [*controller.SETTINGS, *controller.OPTIONAL]
     for row in (names[:3], names[3:]):
         places = st.columns(3, gap="small") if row else ()
@@ -71,11 +74,14 @@ def settings_fields(controller: Controller, key: str, take: Callable[[Controller
 
 
 def _field(controller: Controller, name: str, key: str, take: Callable, place) -> None:
-    value = getattr(controller, name)
+    sign = -1.0 if name.startswith("K") and controller.action == "direct" else 1.0
+    value = sign * getattr(controller, name)
     optional = name == "tau_I"
 
     def changed(number: float | None) -> Controller:
-        return replace(controller, **{name: math.inf if number is None else number})
+        if number is not None and number < 0 and name in MAIN:
+            raise InvalidParameter(f"{LABELS[name]} must be > 0, got {number:g}: its sign is the action")
+        return replace(controller, **{name: math.inf if number is None else sign * number})
 
     number_field(
         LABELS.get(name, name),
@@ -83,6 +89,7 @@ def _field(controller: Controller, name: str, key: str, take: Callable, place) -
         changed,
         lambda number: take(changed(number)),
         key,
+        unit=unit_of(UNITS.get(name, ""), state.design_now().sheet),
         optional=optional,
         place=place,
         help=HELP.get(name),
@@ -90,6 +97,24 @@ def _field(controller: Controller, name: str, key: str, take: Callable, place) -
     )
 
 
+def _action(controller: Controller, key: str, take: Callable[[Controller], None]) -> None:
+    """Direct or reverse, the switch of a control system: the sign of all gains together."""
+    key = f"{key}_action"
+
+    def turn() -> None:
+        if not state.overtaken(key) and state.widget(key) != controller.action:
+            take(
+                replace(
+                    controller, **{name: -getattr(controller, name) for name in controller.SETTINGS if name[0] == "K"}
+                )
+            )
+
+    state.set_widget(key, controller.action)
+    st.segmented_control("Action", ("reverse", "direct"), required=True, key=key, on_change=turn, help=ACTION)
+
+
+MAIN = ("Kc", "Kp", "K_I")
+ACTION = "Reverse: the output falls when PV rises, as a plant with k > 0 needs. Direct: for k < 0."
 HELP = {
     "tau_I": "Integral time. Empty: no integral action, a P or PD controller.",
     "tau_D": "Derivative time, 0 for none.",
@@ -137,12 +162,3 @@ def _take_form() -> None:
     state.change(form=form)
     if state.value("controller") == "own" and own.has_form(form):
         state.change(own=own.in_form(form))
-
-
-def action(controller: Controller) -> str:
-    """Direct or reverse, as the switch in a control system calls it."""
-    form = controller.to_parallel()
-    gain = form.Kp or form.Ki or form.Kd
-    if gain > 0:
-        return "Reverse action: the output falls when PV rises."
-    return "Direct action: the output rises when PV rises. A control system takes the gain without its sign."

@@ -1,6 +1,7 @@
 """What the user decides on the tuning page. Each function shows its widget; the design in `state` is the result."""
 
 import math
+from html import escape
 
 import streamlit as st
 
@@ -8,12 +9,15 @@ from pages.common import live
 from pages.common.parts.copyable import copyable
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
-from pages.common.parts.settings_text import STRUCTURE, as_text
+from pages.common.parts.settings_text import ACTIONS, UNITS, as_text, sizes
+from pages.common.parts.settings_text import structure as formula
+from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
 from pages.common.session.design import KINDS
+from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
-from pages.common.tuning.source import action, form_control
-from simc_core.controllers.forms import IController
+from pages.common.tuning.source import LABELS, form_control
+from simc_core.controllers.forms import Controller
 from simc_core.errors import FormError
 from simc_core.notation import latex, number
 from simc_core.plants.models import Model, UnstableDelay
@@ -33,7 +37,7 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
     """
     model, tau_c = study.model, study.tau_c
     if isinstance(model, UnstableDelay):
-        st.markdown(f"$\\tau_c = \\theta$ = **{number(tau_c)}**")
+        st.markdown(f"$\\tau_c = \\theta$ = **{time_text(tau_c, state.design_now().sheet)}**")
         st.caption("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24].")
         st.caption(model_in_use(model))
         return
@@ -43,7 +47,13 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
         with slide:
             _slider(model, tau_c)
     design_number(
-        "tau_c", "τc, exact", show=lambda value: value or tau_c, key="tau_c_exact", place=place, under=st.container()
+        "tau_c",
+        "τc, exact",
+        show=lambda value: value or tau_c,
+        quantity="time",
+        key="tau_c_exact",
+        place=place,
+        under=st.container(),
     )
     _presets(study)
 
@@ -108,11 +118,22 @@ def settings(study: Study) -> None:
     except FormError as error:
         st.info(f"No {form} form: {error}")
         return
-    structure = r"\frac{K_I}{s}" if isinstance(shown, IController) else STRUCTURE[form]
-    st.markdown(f"$C(s) = {structure}$")
-    st.markdown(f"$\\phantom{{C(s)}} = {latex(shown)}$")
-    copyable(as_text(study.controller, form), "settings_text")
-    st.caption(action(study.controller))
+    sheet = state.design_now().sheet
+    st.markdown(f"$C(s) = {formula(shown, form)}$")
+    st.html(settings_html(shown, sheet))
+    copyable(as_text(study.controller, form, sheet), "settings_text")
+
+
+def settings_html(controller: Controller, sheet: Sheet) -> str:
+    """The settings as one types them, large: sizes with units, and the action."""
+    cells = [
+        f"<div><small>{escape(LABELS[name])}</small><b>{number(value)}</b> {escape(unit_of(UNITS[name], sheet))}</div>"
+        for name, value in sizes(controller).items()
+        if math.isfinite(value)
+    ]
+    action = controller.action
+    cells.append(f'<div class="action" title="{ACTIONS[action]}"><small>action</small><b>{action}</b></div>')
+    return f'<div class="settings" role="group" aria-label="Settings">{"".join(cells)}</div>'
 
 
 def _presets(study: Study) -> None:
@@ -134,7 +155,7 @@ def _choice(key: str, name: str, value: float, study: Study, speed: str) -> None
         f"{name}: {number(value, 3)}" + (" (slow)" if slow else ""),
         key=key,
         width="stretch",
-        help=f"τc = {number(value)}" + (SLOW if slow else ""),
+        help=f"τc = {time_text(value, state.design_now().sheet)}" + (SLOW if slow else ""),
         type="primary" if math.isclose(value, study.tau_c, rel_tol=SAME) else "secondary",
         on_click=state.change,
         kwargs={"tau_c": None, "speed": speed},
@@ -143,4 +164,5 @@ def _choice(key: str, name: str, value: float, study: Study, speed: str) -> None
 
 def model_in_use(model: Model) -> str:
     """Which theta is meant: that of the model, not the plant's dead time."""
-    return f"Model in use: ${latex(model)}$. θ = {number(model.theta)} is its effective dead time."
+    theta = time_text(model.theta, state.design_now().sheet)
+    return f"Model in use: ${latex(model)}$. θ = {theta} is its effective dead time."

@@ -18,6 +18,7 @@ MOST_OF_ALL = 100_000  # elements of all tunings of one call: 2 s
 LEAST_SHARE = 300  # elements of one tuning on its way to rest, however many there are
 LOOK = 150  # elements after which the poles of a loop that has not arrived are asked how far it is
 RADIANS = 8.0  # of an oscillation on one element
+LIKELY = 4.0  # times the least number of elements that an oscillation takes
 DECAY, GROWTH = 7.0, 300.0  # nepers; an oscillation begins with at least 1e-8 of the largest value, it is assumed
 
 
@@ -29,6 +30,14 @@ def together(elements: int) -> int:
 def share(tunings: int) -> int:
     """Elements that each of so many tunings may take to come to rest."""
     return min(MOST_TO_REST, max(LEAST_SHARE, MOST_OF_ALL // tunings))
+
+
+def too_much(t_end: float) -> str:
+    """What to say where all tunings of one call would take more than MOST_OF_ALL."""
+    return (
+        f"all responses up to t = {t_end:.4g} must need at most {MOST_OF_ALL} elements together, got more: "
+        "they oscillate too long; ask for fewer or shorter ones"
+    )
 
 
 def oscillation(loop: Loop) -> tuple[float, float]:

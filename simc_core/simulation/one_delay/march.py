@@ -23,6 +23,7 @@ from typing import NoReturn
 import numpy as np
 from scipy.linalg.lapack import dgesv
 
+from simc_core.certificate.poles import dominant_poles
 from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
@@ -32,8 +33,18 @@ from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.simulation.collocation.elements import P
 from simc_core.simulation.one_delay.closed_element import END, PARTS, ClosedElements, Z
 from simc_core.simulation.one_delay.element_sizes import levels
-from simc_core.simulation.one_delay.limits import LOOK, MOST_HELD, MOST_TO_END, MOST_TO_REST, oscillation, together
-from simc_core.simulation.one_delay.step_control import TAIL, StepControl
+from simc_core.simulation.one_delay.limits import (
+    LIKELY,
+    LOOK,
+    MOST_HELD,
+    MOST_OF_ALL,
+    MOST_TO_END,
+    MOST_TO_REST,
+    oscillation,
+    together,
+    too_much,
+)
+from simc_core.simulation.one_delay.step_control import GONE, REST, TAIL, StepControl
 from simc_core.simulation.one_delay.unit_responses import Batch, UnitResponses, course
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
@@ -41,20 +52,20 @@ COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often
 LARGEST = 1e150  # an unstable response is cut off here
 
 
-def march(
-    plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most_to_rest: int = MOST_TO_REST
-) -> UnitResponses:
+def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most: float | None = None) -> UnitResponses:
     """The first tunings, as many as limits.py lets march together, from rest to t_end, or to their rest (t_end = None,
     for stable loops).
 
-    forms: controllers with one tau_F.   most_to_rest: elements of one tuning, after which it is left where it is.
+    forms: controllers with one tau_F.   most: elements of one tuning, after which it is left where it is on its way to
+    rest; on the way to t_end what all may take on average.
     Raises InvalidParameter: derivative action without filter where y or r may jump; an ill-posed loop without dead
     time; a t_end that needs more than MOST_TO_END elements.
     """
     _check(plant, forms)
+    most = most or (MOST_TO_REST if t_end is None else MOST_OF_ALL)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for finer in range(FINEST + 1):
-            marching = _March(plant, forms, t_end, finer, most_to_rest)
+            marching = _March(plant, forms, t_end, finer, most)
             if marching.arrives():
                 break
     return course(marching.batches, [control.at_rest for control in marching.controls[: marching.n_left]])
@@ -91,7 +102,7 @@ class _March:
     A step is some intervals or one element: what G makes of (w, x), one array (k, END + size, 2) for each element.
     """
 
-    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int, most_to_rest: int):
+    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int, most: float):
         self.proportional, self.derivative = any(form.Kp for form in forms), any(form.Kd for form in forms)
         self.levels = levels(plant, forms[0].tau_F, self.derivative, finer)
         self.count = self._count(plant.theta, t_end)
@@ -104,7 +115,7 @@ class _March:
         forms = forms[: together(at_first)]
         n = self.n_left = len(forms)
         self.plant, self.forms = plant, forms
-        self.most = most_to_rest if t_end is None else MOST_TO_END
+        self.most, self.on_average = (most if t_end is None else MOST_TO_END), most
         self.closed = ClosedElements(forms, self.levels)
         self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
         self.theta, self.t_end, self.n = plant.theta, t_end, n
@@ -123,6 +134,7 @@ class _March:
         self.active = dict.fromkeys(range(n))
         self.batches: list[Batch] = []
         self.held = 0  # elements in them
+        self.rates: dict[int, float] = {}
 
     def arrives(self) -> bool:
         """The whole way; False as soon as the mesh turns out to be too coarse."""
@@ -186,14 +198,18 @@ class _March:
         self.held = sum(len(each.which) * len(each.values) for each in self.batches)
 
     def _drop_endless(self) -> None:
-        """Stop where even the least number of elements is too many."""
+        """Stop where even the least number of elements is too many, or the likely one of all tunings."""
+        likely = 0.0
         for i in list(self.active):
             per_time, duration = oscillation(Loop(self.plant, self.forms[i]))
             end = duration if self.to_rest else min(duration, self.t_end)
+            likely += LIKELY * per_time * end
             if per_time * end > self.most:
                 if not self.to_rest:
                     self._refuse(self.most / per_time)
                 del self.active[i]
+        if not self.to_rest and likely > self.on_average * self.n:
+            raise InvalidParameter(too_much(self.t_end))
 
     def _groups(self, groups: dict[tuple[bool, int], list[int]]) -> None:
         """One batch each. Keys: whether it follows an interval on the mesh, and its level."""
@@ -258,8 +274,21 @@ class _March:
             left = None if self.to_rest else (self.t_end - control.t) / unit
             control.lengthen(judged, middle, tail, control.t / unit, left)
             # what is asked for at t_end is the right-hand limit
-            if control.rests(size) if self.to_rest else control.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
+            if self._rests(i, size) if self.to_rest else control.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
                 del self.active[i]
+
+    def _rests(self, i: int, away: float) -> bool:
+        """Whether a response within `away` of its end has arrived; what does not get nearer may be a slow mode."""
+        control = self.controls[i]
+        control.at_rest = away <= REST or (control.stalls(away) and self._slowest(i) * control.t >= GONE)
+        return control.at_rest
+
+    def _slowest(self, i: int) -> float:
+        """Rate at which the slowest mode of a tuning decays; infinite where it is not known."""
+        if i not in self.rates:
+            poles = dominant_poles(Loop(self.plant, self.forms[i]), most=1)
+            self.rates[i] = -poles[0].s.real if poles else math.inf
+        return self.rates[i]
 
     def _sizes(self, at, last: list[np.ndarray], largest: np.ndarray) -> list[float]:
         """How far from rest each response gets, over its largest value; on the way to t_end how large it has been."""

@@ -20,7 +20,8 @@ PATIENCE, MOST_PATIENCE = 4, 16
 LOWEST, HIGHEST = -48, 60  # levels
 LEAST = 1e-16  # of a coefficient: rounding
 REST = 1e-10  # of the largest value: nearer than this to where it ends, a response is at rest
-ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors
+ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors,
+GONE = 25.0  # if so many time constants of its slowest mode have passed: otherwise it is that mode
 
 
 @dataclass(slots=True)
@@ -61,13 +62,13 @@ class StepControl:
         if left is not None:  # an unstable response is not computed far beyond its end
             self.level = min(self.level, max(math.floor(math.log2(left)), 0) if left > 0 else 0)
 
-    def rests(self, away: float) -> bool:
-        """At rest, with the whole last element within `away` of where the response ends."""
-        self.at_rest = away <= REST
-        if self.t >= 2 * self.mark:
-            self.at_rest |= 0.5 * self.away_at_mark < away <= ROUNDING
-            self.mark, self.away_at_mark = self.t, away
-        return self.at_rest
+    def stalls(self, away: float) -> bool:
+        """Whether the last element, within `away` of where the response ends, is hardly nearer than long before."""
+        if self.t < 2 * self.mark:
+            return False
+        found = 0.5 * self.away_at_mark < away <= ROUNDING
+        self.mark, self.away_at_mark = self.t, away
+        return found
 
 
 def _doublings(middle: float) -> int:

@@ -143,7 +143,9 @@ export class Cascade extends Instrument {
   }
 
   figures({ exact, settings, metrics, why, curves }) {
-    for (const slider of this.sliders) slider.tell(settings[slider.name] ?? {}, exact);
+    const actions = this.exact?.actions ?? {};
+    for (const slider of this.sliders)
+      slider.tell(settings[slider.name] ?? {}, exact, this.setup.measures, actions[slider.name] ?? "");
     strip(
       this.root.querySelector(".strip"),
       this.setup,

@@ -18,6 +18,7 @@ from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
+from pages.common.parts.settings_text import UNITS, sizes
 from pages.common.session.design import Cascade
 from pages.common.session.sheet import Sheet
 from pages.common.studies.cascade import CascadeStudy, designed, scale
@@ -117,6 +118,7 @@ def setup(subject: Subject, grid: Grid) -> bytes:
         "t": grid.t.tolist(),
         "starts": [grid.d1, grid.d2],
         "omega": omega.tolist(),
+        "measures": {name: what for name, what in UNITS.items() if what == "time"},  # gains have others in each loop
         **judgement(SHOWN),
     }
     return pack(header, _parts("Ga", subject.rest.primary, omega) | _parts("Gb", subject.rest.secondary, omega))
@@ -139,6 +141,7 @@ def exact(subject: Subject, grid: Grid, study: CascadeStudy, answers: int, sheet
         "sound": study.sound,
         "inner_stable": study.stability.inner.verdict == "stable",
         "settings": {loop: _shown(getattr(study.design, loop)) for loop in LOOPS},
+        "actions": {loop: f"{getattr(study.design, loop).action} action" for loop in LOOPS},
         "metrics": figures(_judged(study)),
     }
     blocks = {"parameters": _parameters(study.design)}
@@ -207,7 +210,7 @@ def _parameters(design: CascadeDesign) -> np.ndarray:
 
 def _shown(controller: Controller) -> dict[str, float]:
     """As its method writes it: series settings of SIMC, gains of the direct synthesis."""
-    return controller.in_form("parallel" if isinstance(controller, ParallelPid) else "series").settings
+    return sizes(controller.in_form("parallel" if isinstance(controller, ParallelPid) else "series"))
 
 
 def _judged(study: CascadeStudy) -> dict[str, float]:

@@ -13,6 +13,7 @@ from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.live.tuning.table import CURVES, SHOWN, Grid, cap, judged, responses
+from pages.common.parts.settings_text import UNITS
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, study_of_settings
 from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
@@ -35,6 +36,9 @@ NAMES = {
     "theta": ("θ", "Dead time theta"),
     "tau1": ("τ<sub>1</sub>", "Largest time constant tau1"),
 }
+
+
+KNOB_UNITS = {**UNITS, "theta": "time", "tau1": "time"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +95,12 @@ def _knob(subject: Subject, name: str, value: float) -> dict:
         "low": low,
         "high": size * REACH,
         "zero": zero,
+        "what": KNOB_UNITS.get(name) or _gain_of(subject.plant),
     }
+
+
+def _gain_of(plant: Plant) -> str:
+    return {0: "PV/OP", 1: "PV/(OP time)"}.get(plant.integrators, "")
 
 
 def _usual(subject: Subject, name: str) -> float:

@@ -25,6 +25,9 @@ export const EMPTY = { x: [], y: [] };
 /** What stands on the axes; an instrument puts the user's own units here before it makes panels. */
 export const LABELS = { t: "t  [time unit]", omega: "ω  [rad/time unit]", y: "y", u: "u" };
 
+/** A number with the user's unit of what it is of, "time" or "OP/PV", where that has a name. */
+export const measured = (words, what) => (LABELS[what] ? `${words} ${LABELS[what]}` : words);
+
 /** Of the i-th design behind the present one; there are four shades. */
 export const shadeOf = (color, i) => `${color}-pin-${(i % 4) + 1}`;
 
@@ -32,12 +35,15 @@ export const pinned = (color, pins) =>
   pins.map((_, i) => ({ color: shadeOf(color, i), dash: PIN_DASHES[i % PIN_DASHES.length], width: 1.6 }));
 
 /** What the last curves of the panel, called `names`, are at the instant or frequency nearest to the cursor. */
-const tellNearest = (axis, names) => (panel, at) => {
+const tellNearest = (axis, names, what) => (panel, at) => {
   const curves = panel.curves.slice(-names.length),
     { x } = curves[0];
   if (!x.length) return "";
   const i = nearest(x, at);
-  return [`${axis} = ${text(x[i])}`, ...names.map((name, n) => `${name} = ${text(curves[n].y[i])}`)].join("   ");
+  return [
+    `${axis} = ${measured(text(x[i]), what)}`,
+    ...names.map((name, n) => `${name} = ${text(curves[n].y[i])}`),
+  ].join("   ");
 };
 
 /** Smallest and largest value of the panel's curves, and always `always`. */
@@ -54,7 +60,10 @@ export function extent(panel, [from, to], always) {
 
 /** spec: as of a Panel, without x; names: of its last curves. */
 export function timePanel({ names, ...spec }, end, scale) {
-  return new Panel({ ...spec, x: { label: LABELS.t, limits: () => [0, end] }, tell: tellNearest("t", names) }, scale);
+  return new Panel(
+    { ...spec, x: { label: LABELS.t, limits: () => [0, end] }, tell: tellNearest("t", names, "time") },
+    scale,
+  );
 }
 
 /** loops [{name, color, dash, ring}]: L of each, and the colour of the circle that it touches; behind: more styles. */
@@ -68,7 +77,7 @@ export function nyquistPanel({ title, loops, legend, behind = [] }, { omega, cir
       }
     if (!best) return "";
     const value = `${text(best.re, 3)} ${best.im < 0 ? "−" : "+"} ${text(Math.abs(best.im), 3)} j`;
-    return `ω = ${text(omega[best.i])}   ${best.name} = ${value}`;
+    return `ω = ${measured(text(omega[best.i]), "frequency")}   ${best.name} = ${value}`;
   };
   return new Panel(
     {
@@ -114,7 +123,7 @@ export function magnitudePanel({ names, styles, ...spec }, omega, scale) {
   return new Panel(
     {
       ...spec,
-      tell: tellNearest("ω", names),
+      tell: tellNearest("ω", names, "frequency"),
       x: { label: LABELS.omega, log: true, limits: () => [omega[0], omega.at(-1)] },
       y: { label: "", log: true, limits: (p) => [0.01, p.curves.some(({ y }) => y.some((v) => v > 3.2)) ? 100 : 4] },
       styles: [{ color: R, width: 1 }, ...styles],

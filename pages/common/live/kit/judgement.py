@@ -1,10 +1,12 @@
 """What the strip of an instrument says of its figures: labels, meanings, bands of Ms. Pure: no streamlit."""
 
 from pages.common.parts.quantities import QUANTITIES
-from pages.common.parts.units import named
+from pages.common.parts.settings_text import UNITS
+from pages.common.parts.units import named, unit_of
 from pages.common.session.sheet import Sheet
 from simc_core.studies.bands import BANDS, CIRCLES, SOLVED
 
+MEASURED = sorted({*UNITS.values(), "PV/OP", "PV/(OP time)", *(each.unit for each in QUANTITIES.values())} - {""})
 PEAKS = ("Ms", "Ms_outer", "Ms_inner")
 
 
@@ -16,6 +18,7 @@ def judgement(names: tuple[str, ...]) -> dict:
             "label": QUANTITIES[name].label,
             "meaning": QUANTITIES[name].meaning,
             "factor": QUANTITIES[name].factor,
+            "unit": QUANTITIES[name].unit,
             "peak": name in PEAKS,
         }
         for name in names
@@ -25,6 +28,8 @@ def judgement(names: tuple[str, ...]) -> dict:
 
 
 def axis_labels(sheet: Sheet) -> dict[str, str]:
-    """What stands on the axes of an instrument, in the user's units."""
+    """What stands on the axes of an instrument, in the user's units; and each unit by what it is of."""
     y, u = (f"{name}  [{unit}]" if unit else name for name, unit in (("y", sheet.PV_unit), ("u", sheet.OP_unit)))
-    return {"t": named("t  [time unit]", sheet), "omega": named("ω  [rad/time unit]", sheet), "y": y, "u": u}
+    axes = {"t": named("t  [time unit]", sheet), "omega": named("ω  [rad/time unit]", sheet), "y": y, "u": u}
+    frequency = f"rad/{sheet.time_unit}" if sheet.time_unit else ""
+    return axes | {"frequency": frequency} | {what: unit_of(what, sheet) for what in MEASURED}

@@ -1,6 +1,8 @@
 // tau_c or lambda on a logarithmic track: mouse, touch, keyboard. Ranges without a stable loop are hatched.
 
+import { measured } from "./curves.js";
 import { STEPS, text } from "./format.js";
+import { escaped } from "./svg.js";
 
 export class Slider {
   /**
@@ -42,10 +44,10 @@ export class Slider {
 
   /**
    * low, high of tau_c; unit: the length of 1 on the scale, and its symbol; fixed: no choice of tau_c.
-   * zero: the left end means 0.
+   * zero: the left end means 0.   what: is set here, see `measured`.
    */
-  range({ low, high, unit, symbol, fixed, zero }) {
-    Object.assign(this, { low, high, unit, symbol, fixed, zero });
+  range({ low, high, unit, symbol, fixed, zero, what = "time" }) {
+    Object.assign(this, { low, high, unit, symbol, fixed, zero, what });
     this.handle.setAttribute("aria-valuemin", low);
     this.handle.setAttribute("aria-valuemax", high);
     this.handle.setAttribute("aria-disabled", String(fixed));
@@ -83,17 +85,20 @@ export class Slider {
   place(tau_c) {
     this.tau_c = tau_c;
     const ratio = text(tau_c / this.unit, 3);
-    this.value.textContent = `${text(tau_c)}${this.symbol ? ` = ${ratio} ${this.symbol}` : ""}`;
+    const size = measured(text(tau_c), this.what);
+    this.value.textContent = `${size}${this.symbol ? ` = ${ratio} ${this.symbol}` : ""}`;
     this.handle.style.left = `${100 * this.share(tau_c)}%`;
     this.handle.setAttribute("aria-valuenow", tau_c);
-    this.handle.setAttribute("aria-valuetext", `${text(tau_c)}${this.symbol ? `, ${ratio} times theta` : ""}`);
+    this.handle.setAttribute("aria-valuetext", `${size}${this.symbol ? `, ${ratio} times theta` : ""}`);
   }
 
-  /** What the controller's settings are there; exact: all digits on hover. */
-  tell(settings, exact) {
-    this.settings.innerHTML = Object.entries(settings)
-      .map(([name, value]) => `<span title="${exact ? value : ""}">${typeset(name)} <b>${text(value)}</b></span>`)
-      .join("");
+  /** What the controller's settings are there; exact: all digits on hover; measures: what each is of; action: in a word. */
+  tell(settings, exact, measures, action) {
+    const each = Object.entries(settings).map(
+      ([name, value]) =>
+        `<span title="${exact ? value : ""}">${typeset(name)} <b>${escaped(measured(text(value), measures[name]))}</b></span>`,
+    );
+    this.settings.innerHTML = [...each, `<span class="action">${action}</span>`].join("");
   }
 
   move(tau_c) {

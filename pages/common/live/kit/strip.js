@@ -1,6 +1,8 @@
 // The strip of figures that decide: peaks Ms first and largest, their band in words and colour.
 
+import { LABELS } from "./curves.js";
 import { text } from "./format.js";
+import { escaped } from "./svg.js";
 
 const MOVING = 3; // digits while the slider moves, 4 at rest
 
@@ -8,9 +10,9 @@ const MOVING = 3; // digits while the slider moves, 4 at rest
 export function strip(element, { cells, bands, solved }, metrics, exact, why) {
   const shown = (name, factor) => text(factor * metrics[name], exact ? 4 : MOVING);
   element.innerHTML = cells
-    .map(({ name, label, meaning, factor, peak }) => {
-      const [, tone, words] = bands.find(([upto]) => metrics[name] <= upto * (1 + solved)) ?? bands.at(-1);
-      const more = peak ? `<span>${why || (Number.isNaN(metrics[name]) ? "not known yet" : words)}</span>` : "";
+    .map(({ name, label, meaning, factor, peak, unit }) => {
+      const [, tone, band] = bands.find(([upto]) => metrics[name] <= upto * (1 + solved)) ?? bands.at(-1);
+      const more = peak ? `<span>${why || (Number.isNaN(metrics[name]) ? "not known yet" : band)}</span>` : "";
       const both = name === "GM" && metrics.GM_lower > 0;
       const value = Number.isNaN(metrics[name]) ? why || "not known" : factor * metrics[name];
       const title = exact ? value : "interpolated while you drag; exact when you let go";
@@ -18,7 +20,8 @@ export function strip(element, { cells, bands, solved }, metrics, exact, why) {
       return (
         `<div data-figure="${name}" class="${look}" title="${title}\n${meaning}">` +
         `<small>${both ? `${label}, low · high` : label}</small>` +
-        `<b>${both ? `${shown("GM_lower", 1)} · ` : ""}${shown(name, factor)}</b>${more}</div>`
+        `<b>${both ? `${shown("GM_lower", 1)} · ` : ""}${shown(name, factor)}</b> ` +
+        `<i>${escaped(LABELS[unit] || "")}</i>${more}</div>`
       );
     })
     .join("");

@@ -32,7 +32,11 @@ def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     grid = table.grid_of(subject, present, design.excitation, held.end_for(subject))
     held.subject, held.end = subject, float(grid.t[-1])
     name = table.table_name(subject, grid, pins)
-    message = held.message("tuning", name, lambda: table.table(subject, grid, pins, name))
+    try:
+        message = held.message("tuning", name, lambda: table.table(subject, grid, pins, name))
+    except InvalidParameter as error:
+        st.warning(f"Nothing can be dragged here, the other views show this design. {told(str(error))}")
+        return
     answers = components.show(components.tuning, KEY, message, _take)
     components.message(
         key=f"{KEY}_exact",

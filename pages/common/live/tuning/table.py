@@ -11,6 +11,7 @@ from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
+from pages.common.parts.settings_text import UNITS, sizes
 from pages.common.session.design import Excitation, Tuning
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
@@ -167,6 +168,8 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
         "steps": grid.steps,
         "omega": grid.omega.tolist(),
         "settings": names,
+        "measures": {name: UNITS[name] for name in names},
+        "action": f"{found.controllers[0].action} action",
         "metrics": FIGURES,
         **judgement(SHOWN),
         "unit": unit,
@@ -183,7 +186,7 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
     blocks = curves(found, grid)
     for field in ("y", "u"):
         header[f"{field}_cap"] = cap(blocks[field][found.stable], 1.0)
-    blocks["settings"] = np.array([list(each.in_form(subject.form).settings.values()) for each in found.controllers])
+    blocks["settings"] = np.array([list(sizes(each.in_form(subject.form)).values()) for each in found.controllers])
     blocks["metrics"] = metrics(subject, found)
     if pins:
         pinned = zip(*[responses(each.loop, grid) for _, each in pins], strict=True)
@@ -233,7 +236,7 @@ def exact(subject: Subject, grid: Grid, present: Study, name: str, answers: int,
         "answers": answers,
         "labels": axis_labels(sheet),
         "stable": present.stable,
-        "settings": present.controller.in_form(subject.form).settings,
+        "settings": sizes(present.controller.in_form(subject.form)),
         "metrics": figures(judged(present, grid.omega)),
     }
     return pack(header, dict(zip(CURVES, responses(present.loop, grid), strict=True)))

@@ -115,7 +115,7 @@ export class Tuning extends Instrument {
   }
 
   figures({ exact, stable, settings, metrics }) {
-    this.slider.tell(settings, exact);
+    this.slider.tell(settings, exact, this.table.measures, this.table.action);
     strip(
       this.root.querySelector(".strip"),
       this.table,

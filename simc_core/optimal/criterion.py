@@ -1,0 +1,78 @@
+"""What an optimal controller makes smallest: integrals of |e| over exact step responses.
+
+load       IAE of a unit step at the plant input
+setpoint   IAE of a unit step at the plant output, which is one of the set point with b = c = 1
+J          (IAE setpoint/reference + IAE load/reference)/2 [SG12], the references being those of the PI controllers
+           that are best for each of the two with Ms = 1.59
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.controllers.forms import ParallelPid
+from simc_core.errors import InvalidParameter
+from simc_core.metrics.performance import both_steps
+from simc_core.metrics.step_metrics import measures
+from simc_core.plants.plant import Plant
+from simc_core.simulation.one_delay.march import march
+
+CRITERIA = ("load", "setpoint", "J")
+MOST_TO_REST = 600  # elements; an optimal loop takes some thirty
+
+
+@dataclass(frozen=True, slots=True)
+class References:
+    """The IAE that J counts in: of the set point (output), and of the load (input)."""
+
+    setpoint: float
+    load: float
+
+
+@dataclass(frozen=True, slots=True)
+class Criterion:
+    """A criterion of one plant. references: for J."""
+
+    plant: Plant
+    name: str
+    references: References | None = None
+
+    def __post_init__(self):
+        if self.name not in CRITERIA:
+            raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, got {self.name!r}")
+
+    @property
+    def weighs_derivative(self) -> float:
+        """Weight c of the set point in the derivative."""
+        return float(self.name != "load")
+
+    def __call__(self, forms: Sequence[ParallelPid]) -> np.ndarray:
+        """Of each controller, all with one tau_F; math.inf where the loop does not come to rest."""
+        setpoint, load = absolute_errors(self.plant, forms)
+        match self.name:
+            case "load":
+                return load
+            case "setpoint":
+                return setpoint
+            case _:
+                return J(self.references, setpoint, load)
+
+
+def J(references: References, setpoint, load):
+    """[SG12]."""
+    return (setpoint / references.setpoint + load / references.load) / 2
+
+
+def absolute_errors(plant: Plant, forms: Sequence[ParallelPid]) -> tuple[np.ndarray, np.ndarray]:
+    """IAE of set-point and load steps of each controller, (n,) each, all with one tau_F."""
+    parts, at = [], 0
+    with np.errstate(all="ignore"):  # a search may try loops that are not stable
+        while at < len(forms):
+            course = march(plant, forms[at:], None, MOST_TO_REST)
+            found = measures(both_steps(course), with_times=False).IAE.reshape(2, -1)
+            parts.append(np.where(course.at_rest & np.isfinite(found), found, math.inf))
+            at += len(course.at_rest)
+    setpoint, load = np.concatenate(parts, axis=1)
+    return setpoint, load

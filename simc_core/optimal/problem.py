@@ -1,0 +1,78 @@
+"""One optimisation: which plant, which controllers, what is to be small, and how robust the loop must be."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from simc_core.controllers.forms import ParallelPid
+from simc_core.optimal.criterion import Criterion
+from simc_core.optimal.robust_gains import RobustGains, Shapes, robust_gains, sign_of_gain
+from simc_core.plants.plant import Plant
+
+SLOWEST = 100.0  # integral time that the grid of frequencies is made for, in units of all times of the plant
+
+
+@dataclass(frozen=True)
+class Problem:
+    """scale: the time that settings are measured in, the effective dead time where there is one."""
+
+    plant: Plant
+    criterion: Criterion
+    M: float
+    scale: float
+    tau_F: float = 0.0
+
+    @property
+    def times(self) -> float:
+        """All times of the plant together."""
+        plant = self.plant
+        return plant.theta + sum(map(abs, plant.lags)) + sum(tau for tau, _ in plant.lag_pairs) or self.scale
+
+    @cached_property
+    def sign(self) -> float:
+        """Of a gain that can stabilise."""
+        return sign_of_gain(self.plant)
+
+    @cached_property
+    def gains(self) -> RobustGains:
+        """Robust gains round the plant."""
+        return robust_gains(self.plant, SLOWEST * max(self.times, self.scale))
+
+    def shapes(self, tau_I, tau_D=0.0) -> Shapes:
+        """Ideal controllers of gain 1, or -1."""
+        return Shapes.ideal(self.sign, tau_I, tau_D, self.tau_F)
+
+    def edges(self, tau_I, tau_D=0.0) -> tuple[np.ndarray, np.ndarray]:
+        """Smallest and largest |Kc| of each shape; nan where there is none."""
+        return self.gains.highest(self.shapes(tau_I, tau_D), self.M)
+
+    def values(self, Kc, tau_I, tau_D=0.0) -> np.ndarray:
+        """The criterion of each controller; math.inf where Kc is nan."""
+        Kc, tau_I, tau_D = np.broadcast_arrays(np.atleast_1d(Kc), tau_I, tau_D)
+        found = np.full(len(Kc), math.inf)
+        good = np.flatnonzero(np.isfinite(Kc))
+        if good.size:
+            rows = zip(Kc[good].tolist(), tau_I[good].tolist(), tau_D[good].tolist(), strict=True)
+            found[good] = self.criterion(self.forms(rows))
+        return found
+
+    def forms(self, rows) -> Sequence[ParallelPid]:
+        """Controllers of (Kc, tau_I, tau_D)."""
+        c = self.criterion.weighs_derivative
+        return [
+            ParallelPid(self.sign * Kc, self.sign * Kc / tau_I, self.sign * Kc * tau_D, self.tau_F, 1.0, c)
+            for Kc, tau_I, tau_D in rows
+        ]
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """Kc (its size), tau_I, tau_D of the ideal form, and the criterion."""
+
+    Kc: float
+    tau_I: float
+    tau_D: float
+    value: float

@@ -1,0 +1,140 @@
+"""The best PI or PID controller of a plant with max(Ms, Mt) <= M, and what says that there is none.
+
+No optimum exists where the gain may grow without end: without dead time, and with a phase that never falls below -180
+degrees. None is found where no shape has a robust gain. Settings are found for |k|; the gain gets the sign it needs.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from simc_core.controllers.forms import IdealPid, SeriesPid
+from simc_core.errors import InvalidParameter, NoOptimum
+from simc_core.loops.loop import Loop
+from simc_core.optimal.criterion import Criterion, References
+from simc_core.optimal.pi import best_pi
+from simc_core.optimal.pid import best_pid
+from simc_core.optimal.problem import Found, Problem
+from simc_core.plants.plant import Plant
+from simc_core.sensitivity.margins import margins
+
+KINDS = ("PI", "PID")
+REFERENCE_M = 1.59  # of the controllers that J is counted in [SG12]
+LOOK = np.geomspace(0.1, 100, 13)  # tau_I in units of the scale, and tau_D/tau_I, for the smallest possible peak
+DERIVATIVE = (0.1, 0.25, 0.5, 1.0)
+ACTIVE = 2e-5  # relative: peaks this near the bound are on it
+BISECTIONS, HIGHEST = 12, 30.0
+
+
+@dataclass(frozen=True, slots=True)
+class Optimum:
+    """The best controller under a bound.
+
+    value: the criterion.   Ms, Mt: of its loop.   active: whether the bound holds it back.
+    """
+
+    controller: IdealPid | SeriesPid
+    value: float
+    Ms: float
+    Mt: float
+    active: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """What does not change along a front. guess: tau_I and tau_D of a PID controller to look around."""
+
+    plant: Plant
+    kind: str
+    criterion: Criterion
+    scale: float
+    tau_F: float
+    series: bool = False
+    guess: tuple[float, float] | None = None
+
+    def __post_init__(self):
+        if self.kind not in KINDS:
+            raise InvalidParameter(f"kind must be PI or PID, got {self.kind!r}")
+        if self.kind == "PI":
+            return
+        if not self.tau_F and self.criterion.name != "load":
+            raise InvalidParameter(
+                f"tau_F must be > 0 for the criterion {self.criterion.name} of a PID controller, whose derivative acts "
+                "on the set point, got 0"
+            )
+        if not self.tau_F and self.plant.factored.relative_degree == 0:
+            raise InvalidParameter(
+                "tau_F must be > 0 for a PID controller of a plant that answers at once (of relative degree 0), got 0"
+            )
+
+    def best(self, M: float, warm: Found | None = None) -> tuple[Optimum, Found]:
+        """The optimum for max(Ms, Mt) <= M. warm: that for a larger bound. Raises NoOptimum."""
+        problem = Problem(self.plant, self.criterion, M, self.scale, self.tau_F)
+        self._refuse_endless(problem)
+        if self.kind == "PI":
+            found = best_pi(problem)
+        else:
+            found = best_pid(problem, self.series, self.guess, warm)
+            if found is None and warm is not None:
+                found = best_pid(problem, self.series, self.guess)
+        if found is None:
+            raise NoOptimum(self._infeasible(problem))
+        return self._optimum(problem, found), found
+
+    def _optimum(self, problem: Problem, found: Found) -> Optimum:
+        sign, c = problem.sign, problem.criterion.weighs_derivative if found.tau_D else 0.0
+        controller = IdealPid(sign * found.Kc, found.tau_I, found.tau_D, self.tau_F, 1.0, c)
+        peaks = margins(Loop(self.plant, controller))
+        active = max(peaks.Ms, peaks.Mt) > problem.M * (1 - ACTIVE)
+        return Optimum(controller.to_series() if self.series else controller, found.value, peaks.Ms, peaks.Mt, active)
+
+    def _shapes(self) -> tuple[np.ndarray, np.ndarray]:
+        tau_I = self.scale * LOOK
+        if self.kind == "PI":
+            return tau_I, np.zeros(len(tau_I))
+        tau_D = np.outer(DERIVATIVE, tau_I).ravel()
+        return np.tile(tau_I, len(DERIVATIVE)), tau_D
+
+    def _refuse_endless(self, problem: Problem) -> None:
+        if problem.plant.theta:
+            return
+        tau_I, tau_D = self._shapes()
+        if np.isinf(problem.edges(tau_I, tau_D)[1]).any():
+            raise NoOptimum(
+                f"the plant must have dead time, or more lags, for an optimal {self.kind} controller, got one whose "
+                "gain may grow without end within the bound: the error can be made as small as you like"
+            )
+
+    def _infeasible(self, problem: Problem) -> str:
+        tau_I, tau_D = self._shapes()
+
+        def feasible(M: float) -> bool:
+            return bool(np.isfinite(problem.gains.highest(problem.shapes(tau_I, tau_D), M)[1]).any())
+
+        said = f"Ms must be large enough for a stable {self.kind} loop, got {problem.M:g}"
+        if not feasible(HIGHEST):
+            other = "take PID" if self.kind == "PI" else "take a smaller tau_F, or a cascade"
+            return f"{said}: no {self.kind} controller with a peak below {HIGHEST:g} was found; {other}"
+        low, high = problem.M, HIGHEST
+        for _ in range(BISECTIONS):
+            middle = math.sqrt(low * high)
+            low, high = (low, middle) if feasible(middle) else (middle, high)
+        return f"{said}: the smallest that was found is about {high:.3g}"
+
+
+@lru_cache(maxsize=64)
+def references(plant: Plant, scale: float) -> References:
+    """IAE of the PI controllers that are best for set point and for load with Ms = 1.59 [SG12]. Raises NoOptimum."""
+    values = [
+        Search(plant, "PI", Criterion(plant, name), scale, 0.0).best(REFERENCE_M)[0].value
+        for name in ("setpoint", "load")
+    ]
+    return References(*values)
+
+
+def criterion_of(plant: Plant, name: str, scale: float) -> Criterion:
+    """The criterion by name; J with its references."""
+    criterion = Criterion(plant, name)
+    return replace(criterion, references=references(plant, scale)) if name == "J" else criterion
