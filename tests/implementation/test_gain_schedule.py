@@ -86,12 +86,12 @@ def test_one_setting_for_all_rows_and_the_settings_of_the_first_at_the_last():
 
 def test_rows_that_are_too_far_apart_are_warned_of():
     """k theta is 5 at both rows and 9 half way, where the band is still that for 5: a gain 1.8 times too large."""
-    rows = (FirstOrderDelay(1, 5, 40), FirstOrderDelay(5, 1, 40))
+    rows = (FirstOrderDelay(1, 5, 8), FirstOrderDelay(5, 1, 8))
     told = GainSchedule((0, 1), rows, between="PB").warnings()
     assert "if the gain of the plant is linear between rows, 1.59 at the rows: add a row there" in told[0]
     assert GainSchedule((0, 1), rows).warnings() == ()
     half_way = GainSchedule((0, 1), rows, between="PB").settings(0.5)
-    assert half_way.Kc == pytest.approx(1.8 * simc(FirstOrderDelay(3, 3, 40)).Kc)
+    assert half_way.Kc == pytest.approx(1.8 * simc(FirstOrderDelay(3, 3, 8)).Kc)
 
 
 def test_peaks_are_those_of_the_loops_one_by_one():
