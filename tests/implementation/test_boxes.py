@@ -19,6 +19,7 @@ from simc_core import (
     ParallelPid,
     Plant,
     SeriesPid,
+    SimcError,
     from_box,
     margins,
     simulate,
@@ -384,3 +385,22 @@ def test_the_two_filters_are_inverse_to_each_other_also_without_integral_action(
     assert design.tau_F == pytest.approx(0.15)
     found = to_box(design, "matlab_pid")
     assert found.values["Kd"] / found.values["Kp"] / found.values["Tf"] == pytest.approx(9)
+
+
+def test_derivative_action_without_a_gain_has_no_filter_ratio():
+    with pytest.raises(BoxError, match="filters D by a ratio to P"):
+        from_box("schneider_pidff_parallel", {"kp": 0, "ti": 10, "td": 2})
+    with pytest.raises(InvalidParameter, match=r"N must be >= 0.001, got -3"):
+        to_box(SERIES, "deltav_standard", N=-3)
+
+
+@pytest.mark.parametrize("key", BOXES)
+@given(data=st.data())
+def test_whatever_is_typed_makes_a_controller_or_is_refused_in_words(key, data):
+    number = st.sampled_from([0, -1, 1e-12, 0.08, 1, 9999, 1e5, 1e300]) | st.floats()
+    values = {field.name: data.draw(number) for field in BOXES[key].fields}
+    try:
+        found = from_box(key, values, data.draw(st.sampled_from(["reverse", "direct"])), 50, 20)
+    except SimcError:
+        return
+    assert found.tau_F >= 0

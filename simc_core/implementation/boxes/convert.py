@@ -22,6 +22,7 @@ SECONDS = {"s": 1, "min": 60}
 SAME = 1e-12  # relative; what differs by less is the same number
 REQUIRED = ("gain", "PB", "Ti", "1/Ti", "Ki", "1/Ki")
 NEVER_ZERO = ("PB", "Ti", "N", "1/N", "factor")  # but where 0 is off
+RATIOS = 1e-3, 1e6  # of N
 Quantities = dict[str, float]  # of the law, in seconds and in units of output and PV, all gains positive
 
 
@@ -102,7 +103,8 @@ def to_box(
     positive = design.rescaled(gain=sign)
     if N is not None and box.filter != "ratio":
         raise BoxError(f"{box.title} has no ratio N of derivative time to filter time to choose, got N = {N}", "N", N)
-    law, pv_filter, warnings = _LAWS[box.form].forward(positive, box, None if N is None else checks.real("N", N))
+    N = None if N is None else checks.real("N", N, *RATIOS)
+    law, pv_filter, warnings = _LAWS[box.form].forward(positive, box, N)
     action = "reverse" if sign > 0 else "direct"
     values = _numbers(box, law, spans, rounded)
     if box.sign * sign < 0:
@@ -250,6 +252,8 @@ class _IdealOrParallel:
         Kd = law["Kd"] if "Kd" in law else Kp * law.get("Td", 0.0)
         Tf = law.get("Tf", 0.0)
         if box.filter in ("ratio", "fixed") and Kd:
+            if not Kp:
+                raise BoxError(f"{box.title} filters D by a ratio to P, which must not be 0 then, got 0", "", 0.0)
             Tf = Kd / Kp / law.get("N", box.N)
         own = DerivativeFiltered(factor * Kp, factor * Ki, factor * Kd, Tf, law.get("b", 1.0), law.get("c", 0.0))
         whole = whole_filtered(own)

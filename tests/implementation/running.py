@@ -1,0 +1,138 @@
+"""Exported controllers made to run here: Python as it is, C by gcc, the others by a few lines that read their syntax.
+
+Each runner has step(r, y, manual, u_manual, u_ff) -> u, and gains that can be set.
+"""
+
+import ctypes
+import re
+import subprocess
+from types import SimpleNamespace
+
+from simc_core import export
+
+
+class Python:
+    def __init__(self, text, folder):
+        scope = {}
+        exec(compile(text, "pid.py", "exec"), scope)
+        self.pid = scope["Pid"]()
+
+    def set(self, **gains):
+        vars(self.pid).update(gains)
+
+    def step(self, r, y, manual=False, u_manual=0.0, u_ff=0.0):
+        return self.pid.step(r, y, manual, u_manual, u_ff)
+
+
+class C:
+    REAL = "double"
+
+    def __init__(self, text, folder):
+        source, library = folder / "pid.c", folder / "pid.so"
+        source.write_text(text)
+        flags = ["-std=c99", "-Wall", "-Wextra", "-Wshadow", "-pedantic", "-Werror", "-O2", f"-DPID_REAL={self.REAL}"]
+        subprocess.run(["gcc", *flags, "-shared", "-fPIC", str(source), "-o", str(library)], check=True)
+        real = {"double": ctypes.c_double, "float": ctypes.c_float}[self.REAL]
+        names = re.search(r"struct \{(.*?)int started", text, re.DOTALL)[1]
+        fields = [(name, real) for name in re.findall(r"\w+", names) if name != "PID_REAL"]
+        self.pid = type("Pid", (ctypes.Structure,), {"_fields_": [*fields, ("started", ctypes.c_int)]})()
+        self.library = ctypes.CDLL(str(library))
+        self.library.pid_step.restype = real
+        self.library.pid_step.argtypes = [ctypes.c_void_p, real, real, ctypes.c_int, real, real]
+        self.library.pid_init(ctypes.byref(self.pid))
+
+    def set(self, **gains):
+        for name, value in gains.items():
+            setattr(self.pid, name, value)
+
+    def step(self, r, y, manual=False, u_manual=0.0, u_ff=0.0):
+        return self.library.pid_step(ctypes.byref(self.pid), r, y, manual, u_manual, u_ff)
+
+
+class CSingle(C):
+    REAL = "float"
+
+
+def as_python(lines, block_starts, block_ends, middle):
+    """Indented by the words that begin and end blocks, whatever the blanks in the text are."""
+    depth, found = 0, []
+    for line in lines:
+        if re.fullmatch(block_ends, line):
+            depth -= 1
+        elif re.fullmatch(middle, line):
+            found.append("    " * (depth - 1) + "else:")
+        elif match := re.fullmatch(block_starts, line):
+            found.append("    " * depth + f"if {match[1]}:")
+            depth += 1
+        else:
+            found.append("    " * depth + line.rstrip(";").replace(":=", "="))
+    assert depth == 0
+    return "\n".join(found)
+
+
+class Variables:
+    """A controller whose variables are names in one scope."""
+
+    def set(self, **gains):
+        self.scope.update(gains)
+
+    def step(self, r, y, manual=False, u_manual=0.0, u_ff=0.0):
+        self.scope.update(r=r, y=y, manual=manual, u_manual=u_manual, u_ff=u_ff)
+        exec(self.body, self.scope)
+        return self.scope["u"]
+
+
+class StructuredText(Variables):
+    def __init__(self, text, folder):
+        text = re.sub(r"\(\*.*?\*\)", "", text, flags=re.DOTALL)
+        head, body = text.rsplit("END_VAR", 1)
+        declared = re.findall(r"^\s*(\w+) : (\w+)(?: := (.*?))?;", head, flags=re.MULTILINE)
+        lines = [line.strip() for line in body.replace("END_FUNCTION_BLOCK", "").splitlines() if line.strip()]
+        code = as_python(lines, r"IF (.*) THEN", r"END_IF;", r"ELSE")
+        code = code.replace("NOT ", "not ").replace("TRUE", "True")
+        self.body = compile(code, "pid.st", "exec")
+        self.scope = {name: float(value or 0) if kind != "BOOL" else False for name, kind, value in declared}
+        self.declared = set(self.scope)
+        self.scope["LIMIT"] = lambda low, value, high: min(max(value, low), high)
+
+
+class Matlab:
+    def __init__(self, text, folder):
+        lines = [re.sub(r"%.*", "", line).strip() for line in text.splitlines()[1:]]
+        lines = ["return pid" if line == "return" else line for line in lines if line]
+        assert lines.pop() == "end"
+        code = as_python(lines, r"if (.*)", r"end", r"else").replace("~", "not ")
+        code = code.replace("false", "False").replace("true", "True")
+        code = "\n".join("    " + line for line in code.splitlines())
+        scope = {}
+        exec(f"def simc_pid(pid, r, y, manual, u_manual, u_ff, nargin):\n{code}\n    return pid", scope)
+        self.function = scope["simc_pid"]
+        self.pid = self.function(SimpleNamespace(), *[None] * 5, 0)
+
+    def set(self, **gains):
+        vars(self.pid).update(gains)
+
+    def step(self, r, y, manual=False, u_manual=0.0, u_ff=0.0):
+        self.pid = self.function(self.pid, r, y, manual, u_manual, u_ff, 6)
+        return self.pid.u
+
+
+class Modelica(Variables):
+    def __init__(self, text, folder):
+        head, rest = text.split("algorithm", 1)
+        lines = [line.strip() for line in rest.split("end SimcPid;")[0].splitlines() if line.strip()]
+        assert lines.pop(0) == "when sample(0.0, h) then"
+        assert lines.pop() == "end when;"
+        self.body = compile(as_python(lines, r"if (.*) then", r"end if;", r"else"), "pid.mo", "exec")
+        self.scope = {name: float(value) for name, value in re.findall(r"parameter Real (\w+) = (\S+?)[ ;]", head)}
+        self.scope |= dict.fromkeys(re.findall(r"discrete Real (\w+)\(", head), 0.0)
+
+
+RUNNERS = {"python": Python, "c": C, "st": StructuredText, "matlab": Matlab, "modelica": Modelica}
+
+
+def running(controller, language, folder, h, runner=None, **how):
+    """The exported controller, started at rest."""
+    pid = (runner or RUNNERS[language])(export(controller, language, h, **how), folder)
+    pid.step(0.0, 0.0)
+    return pid
