@@ -4,7 +4,7 @@ from urllib.parse import urlencode
 
 import pytest
 
-from pages.common.plant.draft import AROUND
+from pages.common.parts.refusals import AROUND
 from tests.browser.tools import idle
 
 ATTACKS = {
