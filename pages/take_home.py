@@ -22,6 +22,7 @@ with explain_refusal():
             with explain_refusal():
                 found = take_home.numbers(design, present)
                 take_home.proof(design, present, found)
+                take_home.notes(design, found)
         else:
             st.info(
                 "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "

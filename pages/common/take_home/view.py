@@ -54,8 +54,8 @@ def choose(design: Design) -> None:
 
 
 def numbers(design: Design, present: Study) -> Typed:
-    """What is typed, and where the law was read. Raises SimcError where the box does not take the design."""
-    box, rounded = BOXES[design.box], state.widget("rounded", True)
+    """What is typed. Raises SimcError where the box does not take the design."""
+    rounded = state.widget("rounded", True)
     found = typed_into(design.box, present.controller, design.sheet, rounded)
     shown = rows(design.box, found, design.sheet)
     st.html(_numbers_html(shown))
@@ -63,12 +63,6 @@ def numbers(design: Design, present: Study) -> Typed:
     taken = assumed(design.sheet)
     if taken:
         st.info(f"The loop sheet does not tell it: {', '.join(taken)}.")
-    for warning in (*found.warnings, *box.notes):
-        st.warning(sentence(warning))
-    if box.unread:
-        st.warning(f"Check your manual: {sentence('; '.join(box.unread))}")
-    whose = "its maker" if box.verified == "maker" else "a third party, not of its maker"
-    st.html(f'<small class="source">Law as read in: {escape(box.source)}, a text of {whose}.</small>')
     return found
 
 
@@ -95,6 +89,15 @@ def proof(design: Design, present: Study, found: Typed) -> None:
             Panel("typed_u", "u", "Input u of the design and as typed", input_figure(times, HEIGHT, present.stable)),
         )
     )
+
+
+def notes(design: Design, found: Typed) -> None:
+    """What differs from the design, what must be looked up, and where the law of the box was read."""
+    box = BOXES[design.box]
+    if found.warnings:
+        st.warning("\n".join(f"- {sentence(warning)}" for warning in found.warnings))
+    whose = "its maker" if box.verified == "maker" else "a third party, not of its maker"
+    st.html(f'<small class="source">Law as read in: {escape(box.source)}, a text of {whose}.</small>')
 
 
 def in_the_box_now(design: Design) -> None:
