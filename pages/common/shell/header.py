@@ -46,6 +46,7 @@ def show(place: str) -> Design:
             _block("G_b", design.cascade.secondary)
         else:
             _block("G", design.plant)
+            st.caption(f"{design.plant.kind}, $\\theta$ = {design.plant.theta:g}", width="content")
         if place in CHAIN:
             chain(place)
     _notices()
@@ -73,7 +74,6 @@ def chain(place: str, key: str = "chain") -> None:
 
 def _block(name: str, plant: Plant) -> None:
     st.markdown(f"${name}(s) = {latex(plant)}$", width="content")
-    st.caption(f"{plant.kind}, $\\theta$ = {plant.theta:g}", width="content")
 
 
 def _notices() -> None:
