@@ -37,6 +37,12 @@ def rounded_up(value: float, digits: int = 3) -> float:
     return float(f"{math.ceil(value / unit * (1 - 1e-12)) * unit:.{digits}g}")
 
 
+def rounded_down(value: float, digits: int = 3) -> float:
+    """`value` > 0 to `digits` significant digits, not above it."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - digits + 1)
+    return float(f"{math.floor(value / unit * (1 + 1e-12)) * unit:.{digits}g}")
+
+
 def latex_number(value: float, digits: int = DIGITS) -> str:
     """`value` as LaTeX with `digits` significant digits."""
     text = number(value, digits).replace("∞", r"\infty").replace("−", "-").replace("–", r"\text{–}")

@@ -19,7 +19,7 @@ from simc_core import (
     parse_plant,
 )
 from simc_core.cascade.pairs import PAIRS as CASCADES
-from simc_core.notation import latex, latex_number, number, plain, rounded_up
+from simc_core.notation import latex, latex_number, number, plain, rounded_down, rounded_up
 from simc_core.plants.examples import EXAMPLES
 
 TAUS = st.floats(1e-6, 1e6)
@@ -124,4 +124,11 @@ def test_numbers(value, text, tex):
 def test_a_number_rounded_up_is_not_below_and_has_few_digits(value, digits):
     found = rounded_up(value, digits)
     assert value * (1 - 1e-11) <= found <= value * (1 + 10.0 ** (1 - digits)) * (1 + 1e-11)
+    assert float(f"{found:.{digits}g}") == found
+
+
+@given(st.floats(1e-9, 1e9), st.integers(1, 6))
+def test_a_number_rounded_down_is_not_above_and_has_few_digits(value, digits):
+    found = rounded_down(value, digits)
+    assert value * (1 - 10.0 ** (1 - digits)) * (1 - 1e-11) <= found <= value * (1 + 1e-11)
     assert float(f"{found:.{digits}g}") == found

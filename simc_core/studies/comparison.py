@@ -41,7 +41,7 @@ from simc_core.studies.tune import rule_of, subject_of, tune
 FACTORS = np.geomspace(0.3, 6, 41)
 WIDE = np.geomspace(0.01, 30, 61)  # of rules that start from the lag, or from another unit than theta
 COMPARED = np.geomspace(1.15, 5, 14)  # bounds of the front that published rules are compared with
-BETA = 2.0  # of the desired model: no overshoot worth the name
+BETA = 2.0  # of the desired model as published: SIMC with tau_c = theta
 PRECISION = 1e-10  # of log F
 EQUAL = 1e-5  # logarithms of peaks
 NEAR = 0.03  # behind the optimum: rules so near are compared with one of their own peak, not with the front

@@ -20,7 +20,7 @@ def what_changes(
     Parameters
     ----------
     before, after : tuple of Margins and Performance
-        Of the two loops; the performance is None where the loop is not stable.
+        Of the two loops; the performance is None where there is none, as of a loop that is not stable.
     new : str
         What is new in the second one.
 
@@ -34,10 +34,12 @@ def what_changes(
         return f"With {new} the loop is not stable" + ("; without it is." if old.stable else ", nor is it without.")
     if not old.stable:
         return f"The loop is not stable; with {new} it is, with Ms = {number(judged.Ms, DIGITS)}."
-    parts = [
-        _times("Load IAE", was.disturbance.IAE, will.disturbance.IAE),
-        _times("set-point IAE", was.setpoint.IAE, will.setpoint.IAE),
-    ]
+    parts = []
+    if was is not None and will is not None:
+        parts = [
+            _times("Load IAE", was.disturbance.IAE, will.disturbance.IAE),
+            _times("set-point IAE", was.setpoint.IAE, will.setpoint.IAE),
+        ]
     found = ", ".join(part for part in parts if part) or "Integrals of the error cannot be compared"
     return f"{found}; Ms {number(old.Ms, DIGITS)} → {number(judged.Ms, DIGITS)}."
 

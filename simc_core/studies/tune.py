@@ -26,8 +26,8 @@ def tune(key: str, subject: Model | Ultimate | Plant, kind: str = "PI", **knobs:
     kind : str
         "P", "PI", "PD" or "PID".
     **knobs : float
-        The rule's own parameter by name: tau_c, lambda_ and epsilon in the user's time unit, beta without unit, Ki in
-        input units per output unit and time. Left out, or None: the rule's default.
+        The rule's own parameter by name: tau_c, ``lambda_`` and epsilon in the user's time unit, beta without unit, Ki
+        in input units per output unit and time. Left out, or None: the rule's default.
 
     Returns
     -------

@@ -1,9 +1,11 @@
 """Take home: the numbers typed into a box, proof beside them, and the way back to my settings."""
 
+import re
+
 import pytest
 
 from simc_core import BOXES
-from tests.pages.tools import address, run_page
+from tests.pages.tools import address, copyables, run_page, texts
 
 PLANT = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1: Kc 0.5714, tau_I 8
 
@@ -54,3 +56,55 @@ def test_numbers_in_the_box_become_my_settings():
     own = address(app)["own"].split("~")
     assert float(own[1]) == pytest.approx(2.0)
     assert float(own[2]) == pytest.approx(30.0)
+    assert "My settings, as this box has them" in texts(app)
+
+
+PLANTS = {
+    "integrating": "0.5 exp(-2s)/s",
+    "double integrating": "exp(-s)/s^2",
+    "unstable": "2 exp(-s)/(10s-1)",
+    "oscillating": "exp(-s)/(4s^2+0.8s+1)",
+    "pure dead time": "exp(-2s)",
+    "negative gain": "-3 exp(-1.5s)/(12s+1)",
+}
+
+
+@pytest.mark.parametrize("key", ["honeywell_udc", "logix_pid_independent", "deltav_series", "matlab_pid"])
+@pytest.mark.parametrize("plant", PLANTS.values(), ids=PLANTS.keys())
+def test_all_kinds_of_plants_are_shown_or_refused_in_words(plant, key):
+    app = run_page("take_home", plant=plant, unit="min", box=key, sampling="0.1")
+    assert not app.exception
+    assert app.dataframe or app.error
+
+
+def test_a_negative_gain_makes_a_direct_acting_box():
+    app = run_page("take_home", plant=PLANTS["negative gain"], unit="s", box="honeywell_udc")
+    (typed,) = (text for text in copyables(app) if "PB = " in text)
+    assert "action = direct" in typed
+    assert "PB = -" not in typed
+
+
+def test_the_sampling_period_that_is_named_is_short_enough():
+    app = run_page("take_home", plant=PLANT, unit="s", box="matlab_pid", sampling="6")
+    (warning,) = (each.value for each in app.warning if "Sampling is slow" in each.value)
+    named = re.search(r"take ([0-9.]+) s or less", warning)[1]
+    app.text_input(key="home_sampling").set_value(named).run()
+    assert not [each for each in app.warning if "Sampling is slow" in each.value]
+    continuous, sampled = (float(app.dataframe[0].value.iloc[0, column]) for column in (2, 3))
+    assert sampled == pytest.approx(1.05 * continuous, rel=0.01)
+
+
+def test_what_a_form_needs_is_told_in_the_unit_of_the_page():
+    """tau_I 2 min < 4 tau_D 4 min: no series form, in minutes as on the page and not in seconds."""
+    own = "ideal~1~2~1~0.1~1~0"
+    app = run_page("take_home", plant="exp(-s)/(5s+1)", unit="min", own=own, controller="own", box="deltav_series")
+    assert "= 4, got" in app.error[0].value
+    assert not app.exception
+
+
+def test_a_refusal_of_one_box_is_not_told_under_another():
+    app = run_page("take_home", plant=PLANT, unit="s", box="honeywell_udc")
+    app.button(key="from_box").click().run()
+    assert "must be given" in app.error[0].value
+    app.selectbox(key="box").set_value("matlab_pid").run()
+    assert not app.error

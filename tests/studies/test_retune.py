@@ -25,6 +25,11 @@ def test_the_heater_that_a_process_engineer_brought():
     assert said.endswith("; Ms 1.29 → 1.6.")
 
 
+def test_without_integrals_only_the_peaks_are_compared():
+    (peaks, _), new = judged(IdealPid(1.2, 240.0)), judged(simc(FirstOrderDelay(2.2, 20.0, 180.0)))
+    assert what_changes((peaks, None), new) == "Integrals of the error cannot be compared; Ms 1.29 → 1.6."
+
+
 def test_the_same_settings_change_nothing():
     same = judged(IdealPid(1.2, 240.0))
     assert what_changes(same, same) == "Load IAE as before, set-point IAE as before; Ms 1.29 → 1.29."

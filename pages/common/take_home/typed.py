@@ -9,11 +9,17 @@ from simc_core import BOXES, Typed, from_box, to_box
 from simc_core.controllers.forms import Controller
 from simc_core.implementation.boxes.box import PV_FILTER, STRUCTURE
 
+# By the form of a box: raises FormError where the design has none, with numbers as the page has them, not in seconds.
+NEEDED = {
+    "ideal": lambda controller: controller.to_ideal(),
+    **dict.fromkeys(("series", "interacting"), lambda controller: controller.to_series()),
+}
 SPAN = 100.0  # where a range is not told, it is taken as 0 to 100 of its unit
 
 
 def typed_into(key: str, controller: Controller, sheet: Sheet, rounded: bool) -> Typed:
     """What is typed, and the controller in effect, in the time unit of the design. Raises SimcError."""
+    NEEDED.get(BOXES[key].form, lambda _: None)(controller)
     seconds = seconds_of(sheet)
     found = to_box(controller.rescaled(seconds), key, *spans(sheet), rounded=rounded)
     return replace(found, effective=found.effective.rescaled(1 / seconds))

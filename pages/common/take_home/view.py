@@ -9,7 +9,7 @@ from pages.common.parts.copyable import copyable
 from pages.common.parts.number_field import design_number, number_field
 from pages.common.parts.panel import Panel, field
 from pages.common.parts.symbols import sentence
-from pages.common.parts.units import unit_of, with_plain_unit
+from pages.common.parts.units import with_plain_unit
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
@@ -18,12 +18,18 @@ from pages.common.take_home.typed import as_text, assumed, read_from, rows, type
 from simc_core import BOXES, Typed, longest_sampling_period, sampled_margins
 from simc_core.errors import SimcError
 from simc_core.figures import input_figure, output_figure
-from simc_core.notation import number
+from simc_core.implementation.boxes.box import STRUCTURE
+from simc_core.notation import number, rounded_down
 from simc_core.sensitivity.margins_of_response import Margins
 
 HEIGHT = 260  # px
-FIGURES = {"Ms": "", "Mt": "", "GM": "", "PM_deg": "°", "delay_margin": "time"}
-LABELS = {"Ms": "Ms", "Mt": "Mt", "GM": "gain margin", "PM_deg": "phase margin", "delay_margin": "delay margin"}
+ROWS = {  # of Margins: label; delay_margin in the time unit
+    "Ms": "Ms",
+    "Mt": "Mt",
+    "GM": "gain margin",
+    "PM_deg": "phase margin [°]",
+    "delay_margin": "delay margin",
+}
 LAWS = {"backward": "backward difference", "tustin": "Tustin, bilinear"}
 
 
@@ -58,6 +64,7 @@ def numbers(design: Design, present: Study) -> Typed:
     rounded = state.widget("rounded", True)
     found = typed_into(design.box, present.controller, design.sheet, rounded)
     shown = rows(design.box, found, design.sheet)
+    st.caption(f"{'My settings' if design.source == 'own' else 'The settings by SIMC'}, as this box has them:")
     st.html(_numbers_html(shown))
     copyable(as_text(shown), "typed")
     taken = assumed(design.sheet)
@@ -70,16 +77,14 @@ def proof(design: Design, present: Study, found: Typed) -> None:
     """Design, typed and sampled side by side: margins and responses."""
     typed = study_of_settings(design.plant, found.effective)
     columns = {"design": _column(present.margins), "as typed": _column(typed.margins)}
-    h = design.actuator.h
-    if h:
-        every = f"sampled every {number(h)} {design.sheet.time_unit}".rstrip()
-        columns[every] = _column(sampled_margins(typed.loop, h, design.actuator.law))
-    names = [with_plain_unit(LABELS[name], _unit(name, design.sheet)) for name in FIGURES]
+    if design.actuator.h:
+        columns |= _sampled(typed, design)
+    names = [with_plain_unit(label, design.sheet.time_unit * (name == "delay_margin")) for name, label in ROWS.items()]
     table = [
         {"quantity": name} | {column: values[i] for column, values in columns.items()} for i, name in enumerate(names)
     ]
     st.dataframe(table, hide_index=True, width="stretch", height="content")
-    if h and typed.stable:
+    if design.actuator.h and typed.stable:
         _sampling(typed, design)
     studies = [present, typed]
     times = list(zip(("design", "typed"), time_responses(studies, design.excitation), strict=True))
@@ -126,41 +131,50 @@ def in_the_box_now(design: Design) -> None:
             format_func=dict(zip(("reverse", "direct"), box.actions, strict=True)).get,
             key=f"box_{box.key}_action",
         )
-        given = {name: value for name, value in values.items() if value is not None}
+        given: dict[str, float | str] = {name: value for name, value in values.items() if value is not None}
+        if box.structures:
+            given[STRUCTURE] = st.selectbox("Structure", list(box.structures), key=f"box_{box.key}_structure")
         st.button("Use as my settings", key="from_box", on_click=_take, args=(box.key, given, action, design.sheet))
-        why = state.memory("box_refused", str)
+        why = state.memory(f"box_{box.key}_refused", str)
         if why:
             st.error(sentence(why))
 
 
-def _take(key: str, given: dict[str, float], action: str, sheet: Sheet) -> None:
+def _take(key: str, given: dict[str, float | str], action: str, sheet: Sheet) -> None:
+    why = ""
     try:
         state.change(own=read_from(key, given, action, sheet), controller="own")
-        state.remember("box_refused", "")
     except SimcError as error:
-        state.remember("box_refused", str(error))
+        why = str(error)
+    state.remember(f"box_{key}_refused", why)
+
+
+def _sampled(typed: Study, design: Design) -> dict[str, list[str]]:
+    """Margins with the sampling period, by the title of their column; none, and why, where the law does not exist."""
+    h = design.actuator.h
+    try:
+        judged = sampled_margins(typed.loop, h, design.actuator.law)
+    except SimcError as error:
+        st.error(sentence(str(error)))
+        return {}
+    return {f"sampled every {number(h)} {design.sheet.time_unit}".rstrip(): _column(judged)}
 
 
 def _sampling(typed: Study, design: Design) -> None:
+    """Where sampling costs more than it should, up to which period it does not."""
     try:
         longest = longest_sampling_period(typed.loop, design.actuator.law)
-    except SimcError:
+    except SimcError:  # which has been told
         return
     if design.actuator.h > longest:
-        st.warning(
-            f"Sampling is slow for this loop: up to {number(longest)} {design.sheet.time_unit}".rstrip()
-            + " $M_s$ rises by 5 % at most. Shorten it, or set it as h of the half rule and tune again."
-        )
+        period = f"{number(rounded_down(longest))} {design.sheet.time_unit}".rstrip()
+        st.warning(f"Sampling is slow for this loop: take {period} or less, and $M_s$ rises by 5 % at most.")
 
 
 def _column(judged: Margins) -> list[str]:
     if not judged.stable:
-        return ["not stable"] * len(FIGURES)
-    return ["no limit" if math.isinf(value) else number(value) for value in (getattr(judged, name) for name in FIGURES)]
-
-
-def _unit(name: str, sheet: Sheet) -> str:
-    return "°" if name == "PM_deg" else unit_of(FIGURES[name], sheet) if FIGURES[name] else ""
+        return ["not stable"] * len(ROWS)
+    return ["no limit" if math.isinf(value) else number(value) for value in (getattr(judged, name) for name in ROWS)]
 
 
 def _numbers_html(shown: list[dict[str, str]]) -> str:

@@ -9,7 +9,7 @@ from pages.common.tuning.source import change_in_words
 from simc_core.plants.plant import Plant
 
 STILL = "still"
-KNOBS = {"tau_c": "τc", "settings": "Settings", "plant": "What if the plant changes", STILL: "Nothing: to export"}
+KNOBS = {"tau_c": "τc", "settings": "Settings", "plant": "What if the plant changes", STILL: "Figures to export"}
 
 
 def dragged() -> bool:
