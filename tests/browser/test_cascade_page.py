@@ -95,7 +95,8 @@ def test_the_keyboard_is_enough_to_type_a_block_and_to_switch_the_method(server,
 
 def test_a_tab_of_the_tuning_page_does_not_follow_to_the_cascade(server, open_page):
     page = open_page(f"{server}/tuning", 390)
-    tab(page, "Figures")
+    page.get_by_role("radio", name="Figures to export").click()
+    idle(page)
     page.locator(".st-key-panel").get_by_text("|S| |T|").click()
     idle(page)
     page.locator(".st-key-chain").get_by_role("link", name="Cascade").click()
