@@ -11,7 +11,8 @@ from pages.common.take_home import view as take_home
 design = header.show("take_home")
 with explain_refusal():
     present = present_study(design)
-    controls, shown = st.columns([4, 11], gap="medium")
+    with st.container(key="take_home"):
+        controls, shown = st.columns([4, 11], gap="medium")
     with controls:
         take_home.choose(design)
         design = state.design_now()
