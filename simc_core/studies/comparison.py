@@ -22,10 +22,10 @@ from scipy.optimize import brentq
 from simc_core import checks
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller, IController, ParallelPid
-from simc_core.errors import NoOptimum, SimcError
+from simc_core.errors import InvalidParameter, SimcError
 from simc_core.loops.loop import Loop
 from simc_core.metrics.performance import performance
-from simc_core.optimal.criterion import J, References
+from simc_core.optimal.criterion import CRITERIA, J, References
 from simc_core.optimal.robust_gains import peak_bound
 from simc_core.optimal.under_ms import Search, references
 from simc_core.plants.models import FirstOrderDelay, Model, UnstableDelay
@@ -35,12 +35,11 @@ from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.imc_1986 import PI_EPSILON, PID_EPSILON
 from simc_core.rules.simc import default_tau_c
 from simc_core.sensitivity.margins import margins_many
-from simc_core.studies.optimum import FILTER, scale_of, search_for, trade_off
+from simc_core.studies.optimum import FILTER, front, scale_of, search_for
 from simc_core.studies.tune import rule_of, subject_of, tune
 
 FACTORS = np.geomspace(0.3, 6, 41)
 WIDE = np.geomspace(0.01, 30, 61)  # of rules that start from the lag, or from another unit than theta
-COMPARED = np.geomspace(1.15, 5, 14)  # bounds of the front that published rules are compared with
 BETA = 2.0  # of the desired model as published: SIMC with tau_c = theta
 PRECISION = 1e-10  # of log F
 EQUAL = 1e-5  # logarithms of peaks
@@ -69,8 +68,8 @@ class Row:
     controller: the one that is judged, as published or at equal robustness; None where there is none, `refusal` says
     why.   published_Ms, factor: as in EqualRobustness.   Mst: max(Ms, Mt).   load, setpoint: IAE of unit steps at the
     input and at the output.   J: [SG12], nan where there is no reference.   TV: of u after a load step.
-    noise_gain: Kc tau_D/tau_F, Kc for PI.   behind: load over that of the optimum with the same bound, minus 1.
-    in_domain: whether the source recommends it here.
+    noise_gain: Kc tau_D/tau_F, Kc for PI.   behind: the criterion over that of the optimum with the same bound, minus
+    1.   in_domain: whether the source recommends it here.
     """
 
     key: str
@@ -240,6 +239,7 @@ def comparison(
     Ms: float | None = None,
     tau_F: float | None = None,
     keys: Sequence[str] = tuple(RULES),
+    criterion: str = "load",
 ) -> Iterator[Row]:
     """Every rule on one plant, row by row as they are computed; the optimum of each kind comes first.
 
@@ -255,6 +255,8 @@ def comparison(
         Filter of all controllers with derivative action, in the user's time unit. None: 0.1 theta.
     keys : sequence of str
         Names in RULES.
+    criterion : str
+        What the optimum is best for: "load", "setpoint" or "J", as in `optimal`.
 
     Returns
     -------
@@ -269,13 +271,14 @@ def comparison(
     M = None if Ms is None else peak_bound("Ms", Ms)
     for key in keys:
         rule_of(key)
-    return _rows(plant, kinds, M, tau_F, keys)
+    if criterion not in CRITERIA:
+        raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, got {criterion!r}")
+    return _rows(_Judge(plant, M, FILTER * scale_of(plant) if tau_F is None else tau_F, criterion), kinds, keys)
 
 
-def _rows(plant: Plant, kinds: Sequence[str], M: float | None, tau_F: float | None, keys) -> Iterator[Row]:
-    judge = _Judge(plant, M, FILTER * scale_of(plant) if tau_F is None else tau_F)
+def _rows(judge: "_Judge", kinds: Sequence[str], keys: Sequence[str]) -> Iterator[Row]:
     for kind in kinds:
-        if M is not None:
+        if judge.M is not None:
             yield judge.best(kind)
         for key in keys:
             if kind in RULES[key].kinds:
@@ -283,10 +286,10 @@ def _rows(plant: Plant, kinds: Sequence[str], M: float | None, tau_F: float | No
 
 
 class _Judge:
-    """One plant, one bound, one filter."""
+    """One plant, one bound, one filter, one criterion."""
 
-    def __init__(self, plant: Plant, M: float | None, tau_F: float):
-        self.plant, self.M, self.tau_F = plant, M, tau_F
+    def __init__(self, plant: Plant, M: float | None, tau_F: float, criterion: str):
+        self.plant, self.M, self.tau_F, self.criterion = plant, M, tau_F, criterion
         self.references = self._references()
         self.fronts: dict[str, np.ndarray] = {}
 
@@ -322,7 +325,8 @@ class _Judge:
             return replace(_none(key, kind, published, "the loop is not stable"), controller=controller)
         both = performance(loop)
         load, setpoint = both.disturbance.IAE, both.setpoint.IAE
-        behind = self._behind(kind, Mst, load)
+        combined = float(J(self.references, setpoint, load)) if self.references else math.nan
+        value = {"load": load, "setpoint": setpoint, "J": combined}[self.criterion]
         return Row(
             key,
             kind,
@@ -332,40 +336,45 @@ class _Judge:
             Mst,
             load,
             setpoint,
-            float(J(self.references, setpoint, load)) if self.references else math.nan,
+            combined,
             both.disturbance.TV,
             noise_gain(controller),
-            behind,
+            self._behind(kind, Mst, value),
             honoured,
         )
 
-    def _behind(self, kind: str, Mst: float, load: float) -> float:
-        """Relative distance of the load error to that of the best controller with the same peak."""
+    def _behind(self, kind: str, Mst: float, value: float) -> float:
+        """Relative distance of the criterion to that of the best controller with the same peak."""
         x, y = self._front(kind)
         log_Mst = math.log(Mst)
         if not len(x) or not x[0] - EQUAL <= log_Mst <= x[-1] + EQUAL:
             return math.nan
         if len(x) == 1:
-            return load / math.exp(y[0]) - 1
-        behind = load / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1
+            return value / math.exp(y[0]) - 1
+        behind = value / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1
         if behind < NEAR:
-            behind = load / self._search(kind).best(Mst)[0].value - 1
+            behind = value / self._search(kind).best(Mst)[0].value - 1
         return behind
 
     def _front(self, kind: str) -> np.ndarray:
-        """Logarithms of bounds and of the least load errors."""
+        """Logarithms of bounds and of the least values of the criterion."""
         if kind not in self.fronts:
-            bounds = COMPARED if self.M is None else (self.M,)
-            try:
-                front = trade_off(self.plant, kind, "load", bounds, self.tau_F if kind == "PID" else None)
-            except NoOptimum:
-                front = ()
-            values = [each.value for each in front]
-            self.fronts[kind] = np.log([bounds[len(bounds) - len(values) :], values])
+            self.fronts[kind] = np.log(self._least(kind)).T.reshape(2, -1)
         return self.fronts[kind]
 
+    def _least(self, kind: str) -> list[tuple[float, float]]:
+        try:
+            if self.M is not None:
+                return [(self.M, self._search(kind).best(self.M)[0].value)]
+            return [(M, each.value) for M, each in front(self.plant, kind, self.criterion, self._filter(kind))]
+        except SimcError:
+            return []
+
     def _search(self, kind: str) -> Search:
-        return search_for(self.plant, kind, "load", self.tau_F if kind == "PID" else None, False)
+        return search_for(self.plant, kind, self.criterion, self._filter(kind), False)
+
+    def _filter(self, kind: str) -> float | None:
+        return self.tau_F if kind == "PID" else None
 
     def _recommended(self, key: str, kind: str) -> bool:
         rule = RULES[key]

@@ -6,6 +6,7 @@ Pure Python, no streamlit. links.py writes a Design as an address, project.py as
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
+from pages.common.session.compared import PRESENT, Compared
 from pages.common.session.sheet import Sheet, ratio
 from simc_core import BOXES, Actuation, Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
@@ -195,6 +196,7 @@ class Design:
     own: my settings, None until there are any.   now: what is in the plant now, the baseline; None where not told.
     pins: tunings and settings set aside to compare with the present one.
     box: what the settings are typed into, a key of BOXES, "" where not told.
+    compared: what the page of rules compares.
     """
 
     plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
@@ -210,6 +212,7 @@ class Design:
     facts: StepFacts | None = None
     excitation: Excitation = field(default_factory=Excitation)
     box: str = ""
+    compared: Compared = field(default_factory=Compared)
 
     def __post_init__(self):
         one_of("form", self.form, FORMS)
@@ -247,6 +250,7 @@ PLACES: dict[str, tuple[str, str]] = {
     "d_time": ("excitation", "load_time"),
     "r_ramp": ("excitation", "setpoint_ramp"),
     "d_ramp": ("excitation", "disturbance_ramp"),
+    **{f"compared_{name}": ("compared", name) for name in ("plant", "kind", "tau_F", "Ms", "criterion", "rule")},
 }
 
 
@@ -299,6 +303,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
         pins=tuple(_in_time(pin, time) if isinstance(pin, Tuning) else pin.rescaled(time) for pin in design.pins),
         actuator=_in_time(design.actuator, time),
         excitation=_in_time(design.excitation, time),
+        compared=_in_time(design.compared, time) if design.compared.plant == PRESENT else design.compared,
         cascade=replace(
             _in_time(design.cascade, time),
             primary=primary,
@@ -311,7 +316,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
 
 TIMES = (
     *("tau_c", "h", "tracking_time", "tau_c_inner", "tau_c_outer"),
-    *("load_time", "setpoint_ramp", "disturbance_ramp"),
+    *("load_time", "setpoint_ramp", "disturbance_ramp", "tau_F"),
 )
 
 

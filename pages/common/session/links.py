@@ -9,6 +9,7 @@
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
     u_min, u_max, T_t, noise, seed, sampling, law    the loop as built, only where it is not the default
     r, d, d_time, r_ramp, d_ramp                     set point and load in the figures
+    compared_plant, compared_kind, compared_Ms, ...  what the page of rules compares
 
 Numbers are written with all their digits, so that a link opens the very same design.
 """
@@ -33,6 +34,7 @@ TEXTS = (
     *("rules", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
     *("method", "inner", "outer", "filter_outer", "law"),
+    *("compared_plant", "compared_kind", "compared_criterion", "compared_rule"),
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")

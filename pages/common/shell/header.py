@@ -17,7 +17,7 @@ from simc_core.plants.plant import Plant
 GROUPS = {
     "Start": {"home": "Home"},
     "Model": {"plant": "Plant", "half_rule": "Half rule"},
-    "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
+    "Tune": {"tuning": "Tuning", "rules": "Rules", "cascade": "Cascade"},
     "Use": {"take_home": "Take home"},
     "Learn": {"accuracy": "Accuracy"},
 }
