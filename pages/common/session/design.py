@@ -13,6 +13,7 @@ from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
 from simc_core.plants.step_facts import StepFacts
+from simc_core.rules.simc_family import FAMILY
 from simc_core.rules.speed import WORDS, is_speed, times_theta
 
 KINDS = ("PI", "PID")
@@ -28,6 +29,7 @@ LOWEST_N, HIGHEST_N = 0.1, 1000.0
 class Tuning:
     """How a controller is made from the plant.
 
+    rule: SIMC, or one of its later forms, which take the model of order 1.
     order: of the reduced model; 1 gives a PI, 2 a PID controller.   h: sampling period, 0 if continuous.
     speed: tau_c as a choice that follows the plant, "1.5theta" or one of WORDS; "" for tight, the model's own theta.
     tau_c: closed-loop time constant as a number, which goes before speed; None for none.
@@ -41,6 +43,7 @@ class Tuning:
     filter: float = 0.0
     rules: str = "2003"
     speed: str = ""
+    rule: str = "simc"
 
     def __post_init__(self):
         put = object.__setattr__
@@ -54,6 +57,7 @@ class Tuning:
         put(self, "b", checks.real("b", self.b, 0.0, 2.0))
         put(self, "filter", checks.real("filter", self.filter, 0.0, 10.0))
         one_of("rules", self.rules, RULES)
+        one_of("rule", self.rule, FAMILY)
 
     @property
     def kind(self) -> str:
@@ -228,7 +232,7 @@ class Design:
 PLACES: dict[str, tuple[str, str]] = {
     **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box")},
     "controller": ("", "source"),
-    **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed")},
+    **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed", "rule")},
     **{name: ("sheet", name) for name in ("tag", "note")},
     "unit": ("sheet", "time_unit"),
     **{

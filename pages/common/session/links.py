@@ -1,9 +1,9 @@
 """A Design as query parameters and back. Pure: no streamlit, so that it can be tested alone.
 
-    plant, order, h, tau_c, b, filter, rules, speed, form   the design itself; from h on only where not the default
+    plant, order, h, tau_c, b, filter, rules, speed, rule, form  the design itself; from h on where not the default
     facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
-    pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
+    pins                                             order~h~tau_c~b~filter~rules~speed~rule, or settings, between !
     box                                              what the settings are typed into
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
@@ -31,7 +31,7 @@ TUNING_FIELDS = tuple(name for name, (record, _) in PLACES.items() if record == 
 SETTINGS = ("own", "now")
 FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "I": IController}
 TEXTS = (
-    *("rules", "form", "speed", "controller", "box"),
+    *("rules", "rule", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
     *("method", "inner", "outer", "filter_outer", "law"),
     *("compared_plant", "compared_kind", "compared_criterion", "compared_rule"),
@@ -199,7 +199,7 @@ def _pin(text: str) -> Tuning | Controller:
     values = text.split("~")
     if values[0] in FORM_NAMES:
         return settings_of(text)
-    if len(values) not in (len(TUNING_FIELDS), len(TUNING_FIELDS) - 1):  # links of before have no speed
+    if not len(TUNING_FIELDS) - 2 <= len(values) <= len(TUNING_FIELDS):  # links of before have no speed, no rule
         raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, got {len(values)}")
     given = dict(zip(TUNING_FIELDS, values, strict=False))
     return Tuning(**{name: _read(name, value) for name, value in given.items() if value})
