@@ -79,18 +79,16 @@ def tuning_plane_figure(
     """PI settings over the limit of stability and contours of max(Ms, Mt). x: |Kc|, y: tau_I of all points."""
     low, high = float(plane.tau_I[0]), float(plane.tau_I[-1])
     limit = np.clip(plane.limit, low, high)
-    unstable = palette.line(
-        np.concatenate([plane.Kc, plane.Kc[[-1, 0]]]),
-        np.concatenate([limit, [low, low]]),
-        "not stable",
-        palette.ALARM,
-        "solid",
-        1.4,
-        fill="toself",
-        fillcolor=palette.ALARM_BAND,
-        hoverinfo="skip",
-    )
-    traces, notes = [unstable], []
+    below = np.concatenate([plane.Kc, plane.Kc[[-1, 0]]]), np.concatenate([limit, [low, low]])
+    fill = {"fill": "toself", "fillcolor": palette.ALARM_BAND, "hoverinfo": "skip", "showlegend": False}
+    reached = np.isfinite(plane.limit)
+    traces = [
+        palette.line(*below, "not stable", palette.ALARM_BAND, "solid", 0.0, **fill),
+        palette.line(
+            plane.Kc[reached], plane.limit[reached], "limit of stability", palette.ALARM, "solid", 1.6, hoverinfo="skip"
+        ),
+    ]
+    notes = []
     for level, lower, upper in plane.contours:
         found = np.isfinite(upper)
         traces.append(_contour(level, upper[found], plane.tau_I[found]))
@@ -106,8 +104,10 @@ def tuning_plane_figure(
     traces += [*_points(points, "Kc %{x:.4g}, τI %{y:.4g}"), *_marks(chosen, present)]
     return palette.figure(
         traces,
-        palette.axis("Kc  [unit of u / unit of y]", type="log", range=[math.log10(x) for x in plane.Kc[[0, -1]]]),
-        palette.axis("τI  [time unit]", type="log", range=[math.log10(low), math.log10(high)]),
+        palette.axis(
+            "Kc  [unit of u / unit of y]", type="log", dtick="D2", range=[math.log10(x) for x in plane.Kc[[0, -1]]]
+        ),
+        palette.axis("τI  [time unit]", type="log", dtick="D2", range=[math.log10(low), math.log10(high)]),
         height,
         hovermode="closest",
         annotations=notes,

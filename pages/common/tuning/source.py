@@ -14,42 +14,49 @@ from pages.common.studies.single import Study, study_of_settings
 from simc_core.controllers.forms import FORMS, Controller, IdealPid
 from simc_core.errors import InvalidParameter, SimcError
 from simc_core.plants.plant import Plant
+from simc_core.rules.simc_family import FAMILY
 from simc_core.studies.retune import what_changes
 
 OWN = "own"
-SOURCES = {"simc": "SIMC", "improved_simc": "improved SIMC", "isimc": "iSIMC", OWN: "My settings"}
+SOURCES = {"simc": "SIMC", OWN: "My settings"}
+NAMES = {"simc": "original", "improved_simc": "improved", "isimc": "iSIMC"}
 LABELS = {"Kc": "Kc", "tau_I": "τI", "tau_D": "τD", "Kp": "Kp", "Ki": "Ki", "Kd": "Kd", "K_I": "KI", "tau_F": "τF"}
 FIRST = IdealPid(1.0, 10.0)  # where there is nothing to take over
 NOW = "now"  # its name in figures, tables and legends
 
 
 def source_control(made: Study | None) -> None:
-    """SIMC, a later form of it, or my settings. made: what the rule gives, to be taken over; None where it ends."""
-    state.set_widget("controller_source", OWN if state.value("controller") == OWN else state.value("rule"))
+    """SIMC or my settings. made: what SIMC gives, to be taken over; None where its rules end."""
+    state.set_widget("controller_source", state.value("controller"))
     st.segmented_control(
         "Controller from",
         list(SOURCES),
         format_func=SOURCES.get,
         required=True,
-        help="improved SIMC, PI: $\\tau_1 + \\theta/3$ in place of $\\tau_1$, for plants where dead time dominates "
-        "[SG12]. iSIMC, PID: $\\tau_D = \\theta/3$, and $\\tau_c$ down to $\\theta/2$ [GS18]. Both are made from the "
-        "first-order model.",
         key="controller_source",
         on_change=_choose,
         args=(made.controller if made else FIRST,),
     )
+    if state.value("controller") != OWN:
+        st.segmented_control(
+            "Rule",
+            FAMILY,
+            format_func=NAMES.get,
+            required=True,
+            help="Original: PI or PID [SK03]. Improved, PI: $\\tau_1 + \\theta/3$ in place of $\\tau_1$, for plants "
+            "where dead time dominates [SG12]. iSIMC, PID: $\\tau_D = \\theta/3$, and $\\tau_c$ down to $\\theta/2$ "
+            "[GS18]. The later two are made from the first-order model.",
+            **state.bound("rule"),
+        )
 
 
 def _choose(offered: Controller) -> None:
     if state.overtaken("controller_source"):
         return
     chosen = state.widget("controller_source")
-    if chosen != OWN:
-        state.change(controller="simc", rule=chosen)
-        return
-    if state.value("own") is None:
+    if chosen == OWN and state.value("own") is None:
         state.change(own=_shown_in_form(offered))
-    state.change(controller=OWN)
+    state.change(controller=chosen)
 
 
 def _shown_in_form(controller: Controller) -> Controller:
@@ -62,7 +69,7 @@ def my_settings(made: Study | None) -> None:
     settings_fields(state.value("own"), "own", lambda changed: state.change(own=changed))
     if made:
         st.button(
-            f"Take over the {SOURCES[state.value('rule')]} settings",
+            "Take over the SIMC settings",
             key="take_over",
             width="stretch",
             help="Copies what the rule gives for this plant into the fields, to be changed by hand.",
