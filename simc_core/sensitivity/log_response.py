@@ -47,10 +47,14 @@ class Response(Protocol):
     roots: poles and zeros other than 0, and whatever else makes |L| or arg L bend; a rough value is enough.
     """
 
-    theta: float
-    roots: list[complex]
-    at_zero: Asymptote
-    at_infinity: Asymptote
+    @property
+    def theta(self) -> float: ...
+    @property
+    def roots(self) -> list[complex]: ...
+    @property
+    def at_zero(self) -> Asymptote: ...
+    @property
+    def at_infinity(self) -> Asymptote: ...
 
     def log_derivatives(self, omega: np.ndarray) -> Logs: ...
 
