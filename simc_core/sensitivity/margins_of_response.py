@@ -18,7 +18,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from simc_core.sensitivity.crossings import Crossings, search
-from simc_core.sensitivity.log_response import Response
+from simc_core.sensitivity.log_response import Ends, Response
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,7 @@ def margins_of(response: Response) -> Margins:
     return margins_from(response, search(response))
 
 
-def margins_from(response: Response, found: Crossings) -> Margins:
+def margins_from(response: Ends, found: Crossings) -> Margins:
     """margins_of, where the crossings are known."""
     limits = _limits(response)
     (S_0, T_0), (S_inf, T_inf) = map(_sensitivities, limits)
@@ -83,7 +83,7 @@ def margins_from(response: Response, found: Crossings) -> Margins:
     )
 
 
-def _limits(response: Response) -> tuple[float, float]:
+def _limits(response: Ends) -> tuple[float, float]:
     """L(0) and L(inf), real, perhaps infinite; at infinity -|L| for a neutral loop, which gets there at any phase."""
     at = []
     for (gain, power), sign in ((response.at_zero, 1), (response.at_infinity, -1)):
@@ -110,7 +110,7 @@ def _phase_margin(found: Crossings) -> tuple[float, float]:
     return min(crossed, default=(math.inf, math.nan))
 
 
-def _delay_margin(response: Response, limits: tuple[float, float], found: Crossings) -> float:
+def _delay_margin(response: Ends, limits: tuple[float, float], found: Crossings) -> float:
     if response.theta == 0 and abs(limits[1]) >= 1:
         return 0.0  # any dead time at all makes it a neutral loop with |L(inf)| >= 1
     crossed = zip(found.gain_phase.tolist(), found.gain_omega.tolist(), strict=True)
