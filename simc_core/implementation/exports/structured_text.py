@@ -1,5 +1,7 @@
 """A function block in Structured Text of IEC 61131-3."""
 
+from collections.abc import Iterable
+
 from simc_core.implementation.exports.program import (
     GAINS,
     MANUAL,
@@ -19,7 +21,7 @@ def structured_text(program: Program) -> str:
     """FUNCTION_BLOCK FB_SimcPid, in LREAL, or REAL."""
     real = "REAL" if program.single else "LREAL"
 
-    def declared(names) -> list[str]:
+    def declared(names: Iterable[str]) -> list[str]:
         return [
             f"    {name} : {real} := {_literal(program.values[name])};"
             + (f" (* {MEANING[name]} *)" if MEANING[name] else "")
