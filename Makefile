@@ -23,6 +23,7 @@ lint: $(VENV)/dev.stamp node_modules/.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports --no-cache
+	$(BIN)/mypy
 	node_modules/.bin/biome check
 
 doctest: $(VENV)/dev.stamp
@@ -59,7 +60,7 @@ licences: $(VENV)/run.stamp
 	$(BIN)/python -m deploy.licences
 
 clean:
-	rm -rf $(VENV) node_modules .pytest_cache .ruff_cache .hypothesis docs/_build
+	rm -rf $(VENV) node_modules .mypy_cache .pytest_cache .ruff_cache .hypothesis docs/_build
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV) || { echo "No venv here: apt-get install python3-venv"; exit 1; }
