@@ -96,6 +96,28 @@ class StructuredText(Variables):
         self.scope["LIMIT"] = lambda low, value, high: min(max(value, low), high)
 
 
+class Scl(StructuredText):
+    """Its dialect read as Structured Text: # before names, LIMIT with named arguments."""
+
+    def __init__(self, text, folder):
+        assert text.count("BEGIN") == 1
+        text = text.replace("BEGIN", "").replace("#", "").replace(": LReal", ": LREAL")
+        super().__init__(re.sub(r"(MN|IN|MX) := ", "", text), folder)
+
+
+class Logix(Variables):
+    """A routine; its tags are named in the comment."""
+
+    def __init__(self, text, folder):
+        comment, body = re.fullmatch(r"\(\*(.*?)\*\)(.*)", text, re.DOTALL).groups()
+        reals = re.search(r"REAL tags: (.*)\.", comment)[1].split(", ")
+        lines = [line.strip() for line in body.splitlines() if line.strip()]
+        code = as_python(lines, r"IF (.*) THEN", r"END_IF;", r"ELSE")
+        self.body = compile(code.replace("NOT ", "not ").replace("TRUE", "True"), "pid.txt", "exec")
+        self.scope = dict.fromkeys(reals, 0.0) | {"manual": False, "started": False}
+        assert set(self.body.co_names) <= set(self.scope)
+
+
 class Matlab:
     def __init__(self, text, folder):
         lines = [re.sub(r"%.*", "", line).strip() for line in text.splitlines()[1:]]
@@ -128,7 +150,15 @@ class Modelica(Variables):
         self.scope |= dict.fromkeys(re.findall(r"discrete Real (\w+)\(", head), 0.0)
 
 
-RUNNERS = {"python": Python, "c": C, "st": StructuredText, "matlab": Matlab, "modelica": Modelica}
+RUNNERS = {
+    "python": Python,
+    "c": C,
+    "st": StructuredText,
+    "scl": Scl,
+    "logix": Logix,
+    "matlab": Matlab,
+    "modelica": Modelica,
+}
 
 
 def running(controller, language, folder, h, runner=None, **how):
