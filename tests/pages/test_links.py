@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from pages.common.session import links, project
 from pages.common.session.design import Actuator, Cascade, Design, Excitation, Tuning, put
+from pages.common.session.home import EXPORTED, LANGUAGES, ROUNDINGS, Home
 from pages.common.session.loops import Entry, Loops
 from pages.common.session.sheet import TIME_UNITS, Sheet
 from simc_core import IController, IdealPid, ParallelPid, Plant, SeriesPid
@@ -99,6 +100,12 @@ actuators = st.builds(
     seed=st.integers(0, 2**32 - 1),
     h=st.just(0.0) | times,
 )
+homes = st.builds(
+    Home,
+    rounding=st.sampled_from(ROUNDINGS),
+    language=st.sampled_from(sorted(LANGUAGES)),
+    exported=st.sampled_from(EXPORTED),
+)
 designs = st.builds(
     Design,
     plant=plants,
@@ -108,6 +115,7 @@ designs = st.builds(
     now=st.none() | settings_,
     pins=st.lists(tunings | settings_, max_size=4).map(tuple),
     sheet=sheets,
+    home=homes,
     cascade=cascades,
     actuator=actuators,
     excitation=excitations,

@@ -4,7 +4,7 @@
     facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
     pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
-    box                                              what the settings are typed into
+    box, rounding, language, exported                what the settings are typed into, or written as
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
     u_min, u_max, T_t, noise, seed, sampling, law    the loop as built, only where it is not the default
@@ -33,6 +33,7 @@ TEXTS = (
     *("rules", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
     *("method", "inner", "outer", "filter_outer", "law"),
+    *("rounding", "language", "exported"),
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")

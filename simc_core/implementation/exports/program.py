@@ -188,7 +188,7 @@ def _header(
         lines += [f"plant   {plain(plant)}"]
         lines += ["Ms      " + ", ".join(f"{number(Ms)} {which}" for which, Ms in peaks.items())]
     lines += [f"made    {date} by SIMC" if date else "made by SIMC"]
-    lines += ["Start it in manual with u_manual = the output the plant is at; gains may be changed at any time."]
+    lines += ["Start it in manual with u_manual = the output the plant is at.", "Gains may be changed at any time."]
     return tuple(line.replace("–", "not stable") for line in lines)
 
 
