@@ -89,7 +89,7 @@ DEBIAN_node := nodejs
 DEBIAN_npm := npm
 DEBIAN_gcc := gcc libc6-dev
 DEBIAN_g++ := g++
-DEBIAN_avr-gcc := gcc-avr avr-libc
+DEBIAN_avr-gcc := gcc-avr binutils-avr avr-libc
 DEBIAN_octave := octave
 .PHONY: chromium nginx systemd-analyze node npm gcc g++ avr-gcc octave
 chromium nginx systemd-analyze node npm gcc g++ avr-gcc octave:

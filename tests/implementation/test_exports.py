@@ -22,6 +22,7 @@ from simc_core import (
     margins,
     simulate,
 )
+from simc_core.implementation.exports.program import SETTINGS, STATE
 from simc_core.implementation.single_precision import dead_error
 from tests.implementation.running import RUNNERS, CSingle, StructuredText, running
 from tests.oracles.sampled_loop import driven
@@ -136,6 +137,35 @@ printf("%d %d %.12g", calls, pwm, (double)pid.u); }
     assert float(u) == pytest.approx(2 * e + int(calls) * 0.5 * 0.2 * e, rel=1e-9)
     assert int(pwm) == round(2.55 * float(u))
     assert "does not move the integral any more" in sketch
+
+
+@pytest.mark.parametrize(("law", "h"), [("backward", 0.2), ("tustin", 0.5)])
+def test_the_arduino_sketch_fits_an_atmega328(law, h, tmp_path):
+    """Linked for its 32 KB, of which the boot loader takes 0.5, with avr-libc and a board that does nothing."""
+    board = """
+#include <stdint.h>
+enum { A0 = 14 };
+static volatile int level; static volatile unsigned long now;
+unsigned long micros(void) { return now; }
+int analogRead(int pin) { return level + pin; }
+void analogWrite(int, int value) { level = value; }
+"""
+    source, program = tmp_path / "sketch.cpp", tmp_path / "sketch.elf"
+    sketch = export(PID, "arduino", h, law, u_min=0, u_max=100)
+    source.write_text(f"{board}{sketch}\nint main() {{ setup(); for (;;) loop(); }}\n")
+    flags = ["-mmcu=atmega328p", "-Os", "-Wall", "-Wextra", "-Werror"]
+    subprocess.run(["avr-g++", *flags, str(source), "-o", str(program)], check=True)
+    sizes = subprocess.run(["avr-size", str(program)], capture_output=True, text=True, check=True).stdout
+    text, data, bss = map(int, sizes.splitlines()[1].split()[:3])
+    assert 1000 < text + data < 32256
+    assert 4 * (len(SETTINGS) + len(STATE)) <= data + bss < 2048  # each number has 4 bytes there
+
+
+def test_c_compiles_for_a_small_processor_without_a_warning(tmp_path):
+    source = tmp_path / "pid.c"
+    source.write_text(export(PID, "c", 0.2, single=True))
+    flags = ["-mmcu=atmega328p", "-std=c99", "-Os", "-Wall", "-Wextra", "-Wshadow", "-pedantic", "-Werror"]
+    subprocess.run(["avr-gcc", *flags, "-c", str(source), "-o", str(tmp_path / "pid.o")], check=True)
 
 
 @pytest.mark.parametrize(
