@@ -4,9 +4,24 @@ import streamlit as st
 
 from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
+from pages.common.session.design import Design
 from pages.common.shell import header
-from pages.common.studies.single import present_study
+from pages.common.studies.single import Study, present_study
 from pages.common.take_home import view as take_home
+from pages.common.take_home.way_out import way_out
+from simc_core.errors import FormError
+
+
+def show(design: Design, present: Study) -> None:
+    """What is typed, the proof, what differs; or what can be done where the box has no such form."""
+    try:
+        found = take_home.numbers(design, present)
+    except FormError as error:
+        way_out(design, present, error)
+        return
+    take_home.proof(design, present, found)
+    take_home.notes(design, found)
+
 
 design = header.show("take_home")
 with explain_refusal():
@@ -21,9 +36,7 @@ with explain_refusal():
     with shown:
         if design.box:
             with explain_refusal():
-                found = take_home.numbers(design, present)
-                take_home.proof(design, present, found)
-                take_home.notes(design, found)
+                show(design, present)
         else:
             st.info(
                 "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
