@@ -30,6 +30,19 @@ class Judged:
 
 
 @dataclass(frozen=True, slots=True)
+class Robust:
+    """New settings on n plants that differ a little from the one known.
+
+    stable: share of stable loops.   Ms_median, Ms_95: of Ms; a loop that is not stable counts as infinite.
+    """
+
+    n: int
+    stable: float
+    Ms_median: float
+    Ms_95: float
+
+
+@dataclass(frozen=True, slots=True)
 class Result:
     """One row of a list, tuned; or the reason why not.
 
@@ -55,6 +68,8 @@ class Result:
         The settings that are in the controller now.
     typed : Typed or None
         The new settings as they are typed into the box, rounded.
+    robust : Robust or None
+        The new settings on variants of the plant, where they were asked for.
     """
 
     row: Mapping[str, Any]
@@ -67,6 +82,7 @@ class Result:
     model: Model | None = None
     present: Judged | None = None
     typed: Typed | None = None
+    robust: Robust | None = None
 
     @property
     def tag(self) -> str:
@@ -92,20 +108,6 @@ class Result:
         if exceeds(self.present.margins.Ms, LARGEST_MS):
             return "fragile"
         return "slow oscillation" if any(each.quantity == SLOW for each in self.advice) else ""
-
-    @property
-    def worth(self) -> tuple[int, float]:
-        """For sorting: what it is worth most to retune comes first.
-
-        Loops that are unstable, fragile or oscillate slowly now come first, then by `load_ratio`. Rows without present
-        settings come after those, rows without new ones last.
-        """
-        if self.refusal:
-            return 5, 0.0
-        if self.present is None:
-            return 4, 0.0
-        ratio = 0.0 if math.isnan(self.load_ratio) else self.load_ratio
-        return TROUBLES.index(self.trouble), -ratio
 
 
 SLOW = "Kc k' tau_I now"

@@ -181,17 +181,3 @@ def test_results_can_be_sent():
     again = pickle.loads(pickle.dumps(result))
     assert again.controller == result.controller
     assert again.typed.values == result.typed.values
-
-
-def test_order_of_worth():
-    """Unstable, fragile, then by the load IAE, those without present settings, and the refused."""
-    rows = [
-        {"tag": "refused"},
-        {"tag": "nothing known", "k": 1, "theta": 1, "tau1": 8},
-        {"tag": "good", "k": 1, "theta": 1, "tau1": 8, "Kc": 4, "tau_I": 8},
-        {"tag": "slow", "k": 1, "theta": 1, "tau1": 8, "Kc": 0.5, "tau_I": 8},
-        {"tag": "fragile", "k": 1, "theta": 1, "tau1": 8, "Kc": 9, "tau_I": 8},
-        {"tag": "unstable", "k": 1, "theta": 1, "tau1": 8, "Kc": 40, "tau_I": 8},
-    ]
-    order = [result.tag for result in sorted(tune_chunk(rows), key=lambda result: result.worth)]
-    assert order == ["unstable", "fragile", "slow", "good", "nothing known", "refused"]
