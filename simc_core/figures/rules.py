@@ -83,7 +83,7 @@ def tuning_plane_figure(
     fill = {"fill": "toself", "fillcolor": palette.ALARM_BAND, "hoverinfo": "skip", "showlegend": False}
     reached = np.isfinite(plane.limit)
     traces = [
-        palette.line(*below, "not stable", palette.ALARM_BAND, "solid", 0.0, **fill),
+        palette.line(*below, "not stable", palette.ALARM_BAND, "solid", 0.0) | fill,
         palette.line(
             plane.Kc[reached], plane.limit[reached], "limit of stability", palette.ALARM, "solid", 1.6, hoverinfo="skip"
         ),

@@ -14,7 +14,7 @@ from simc_core.plants.plant import Plant
 from simc_core.reduction.half_rule import half_rule
 from simc_core.rules.simc import default_tau_c, simc
 from simc_core.sensitivity.margins import margins_many
-from simc_core.studies.comparison import filtered
+from simc_core.studies.equal_robustness import filtered
 from simc_core.studies.optimum import FILTER, scale_of
 
 FACTORS = np.geomspace(0.1, 10, 33)  # tau_c over its usual value

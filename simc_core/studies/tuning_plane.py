@@ -7,7 +7,8 @@ from functools import lru_cache
 import numpy as np
 
 from simc_core.errors import NotReducible, NotStable
-from simc_core.optimal.robust_gains import robust_region, sign_of_gain
+from simc_core.optimal.robust_gains import sign_of_gain
+from simc_core.optimal.robust_region import robust_region
 from simc_core.optimal.stability_limit import stability_limit
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.ultimate import ultimate
@@ -17,6 +18,8 @@ LEVELS = (1.4, 1.59, 2.0, 3.0)  # of max(Ms, Mt)
 TIMES, GAINS = 120, 36
 SHORTEST, LONGEST = 0.2, 20.0  # tau_I over the scale of the plant, or up to all of its times
 LOWEST, BEYOND = 0.02, 1.3  # gains over the largest that is of interest
+
+Contour = tuple[float, np.ndarray, np.ndarray]  # level, lower and upper edge
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,7 +31,7 @@ class TuningPlane:
     """
 
     tau_I: np.ndarray
-    contours: tuple[tuple[float, np.ndarray, np.ndarray], ...]
+    contours: tuple[Contour, ...]
     Kc: np.ndarray
     limit: np.ndarray
 
@@ -49,7 +52,7 @@ def tuning_plane(plant: Plant) -> TuningPlane:
     """
     scale = scale_of(plant)
     tau_I = np.geomspace(SHORTEST * scale, max(LONGEST * scale, 2 * plant.total_time), TIMES)
-    found = [(level, *map(np.abs, robust_region(plant, tau_I, level))) for level in LEVELS]
+    found = [_contour(plant, tau_I, level) for level in LEVELS]
     contours = tuple(each for each in found if np.isfinite(each[2]).any())
     largest = _largest(plant, contours)
     Kc = np.geomspace(LOWEST * largest, largest, GAINS)
@@ -57,7 +60,12 @@ def tuning_plane(plant: Plant) -> TuningPlane:
     return TuningPlane(tau_I, contours, np.append(Kc, BEYOND * largest), np.append(limit, math.inf))
 
 
-def _largest(plant: Plant, contours) -> float:
+def _contour(plant: Plant, tau_I: np.ndarray, level: float) -> Contour:
+    low, high = robust_region(plant, tau_I, level)
+    return level, np.abs(low), np.abs(high)
+
+
+def _largest(plant: Plant, contours: tuple[Contour, ...]) -> float:
     """The ultimate gain; where there is none, some gain beyond all contours."""
     try:
         return abs(ultimate(plant).Ku)

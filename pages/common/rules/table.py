@@ -140,7 +140,7 @@ def _cells(row: Row, equal: bool) -> dict:
         "J": row.J,
         "behind, %": 100 * (0.0 if abs(row.behind) <= EQUAL else row.behind),
         "TV load": row.TV,
-        "noise gain": row.noise_gain,
+        "noise gain": row.high_frequency_gain,
         "in domain": "" if row.key == OPTIMAL else "yes" if row.in_domain else "no",
         "source": "" if row.key == OPTIMAL else RULES[row.key].source.strip("[]"),
         "remark": row.refusal,

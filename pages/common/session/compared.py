@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
+from pages.common.session.sheet import one_of
 from simc_core import RULES, Plant, checks
-from simc_core.errors import InvalidParameter
 from simc_core.optimal.criterion import CRITERIA
 
 KINDS = ("PI", "PID", "both")
@@ -48,13 +48,13 @@ class Compared:
 
     def __post_init__(self):
         put = object.__setattr__
-        _one_of("compared_plant", self.plant, (PRESENT, *USUAL))
-        _one_of("compared_kind", self.kind, KINDS)
-        _one_of("compared_criterion", self.criterion, CRITERIA)
+        one_of("compared_plant", self.plant, (PRESENT, *USUAL))
+        one_of("compared_kind", self.kind, KINDS)
+        one_of("compared_criterion", self.criterion, CRITERIA)
         if self.rule:
             key, _, kind = self.rule.partition("-")
-            _one_of("compared_rule", key, (OPTIMAL, *RULES))
-            _one_of("the kind of compared_rule", kind, KINDS[:2])
+            one_of("compared_rule", key, (OPTIMAL, *RULES))
+            one_of("the kind of compared_rule", kind, KINDS[:2])
         if self.tau_F is not None:
             put(self, "tau_F", checks.positive_time("tau_F", self.tau_F))
         if self.Ms is not None:
@@ -64,8 +64,3 @@ class Compared:
     def kinds(self) -> tuple[str, ...]:
         """PI, PID or both."""
         return KINDS[:2] if self.kind == "both" else (self.kind,)
-
-
-def _one_of(name: str, value: str, choices: tuple[str, ...]) -> None:
-    if value not in choices:
-        raise InvalidParameter(f"{name} must be one of {', '.join(filter(None, choices))}, got {str(value)[:40]}")
