@@ -21,7 +21,7 @@ from simc_core.plants.plant import Plant
 from simc_core.simulation.one_delay.march import march
 
 CRITERIA = ("load", "setpoint", "J")
-MOST_TO_REST = 600  # elements; an optimal loop takes some thirty
+MOST_TO_REST = 250  # elements; an optimal loop takes some thirty
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,8 +30,10 @@ LOW = 0.5  # of M: peaks that matter
 SETTLED, VIOLATED = 3e-6, 2e-6  # relative: change of the criterion, peaks beyond what is asked
 ASIDE = 3e-6  # relative: what is asked, below M
 ITERATIONS, EVALUATIONS = 45, 60
+HOPELESS = 20  # evaluations without a point that meets the bound: none is near
 AROUND_END, LOOKS = 0.02, 6  # logarithms of tau_I and tau_D about the end of a search, and how often
 FLAT = 1e-13  # second difference of log|S| that is rounding
+NO_LOOP = 1e300  # the criterion of a loop that does not come to rest, for a walk that must have a number
 SLACK = 1.0  # of a constraint that is not there
 REACH = math.log(1e4)  # of each variable from where it begins
 ZOOM = np.linspace(0.0, 1.0, 9)
@@ -144,19 +146,20 @@ class _Search:
 
     def _at(self, x: np.ndarray) -> "_Search":
         if not np.array_equal(x, self.last):
-            if not self.left:
+            hopeless = self.left == EVALUATIONS - HOPELESS and not math.isfinite(self.best[0])
+            if not self.left or hopeless:
                 raise _Stop
             self.left -= 1
             self.last = x.copy()
             self.f, self.slope = self._criterion(x)
             self.g, self.G = self._constraints(x)
-            if self.g.min() > -VIOLATED and self.f < self.best[0]:
+            if self.g.min() > -VIOLATED and self.f < min(self.best[0], math.log(NO_LOOP)):
                 self.best = self.f, self.last
         return self
 
     def _criterion(self, x: np.ndarray) -> tuple[float, np.ndarray]:
         points = x + DIFFERENCE * np.concatenate([np.zeros((1, 3)), np.eye(3)])
-        values = np.log(np.minimum(self.problem.values(*self.settings(points)), 1e300))
+        values = np.log(np.minimum(self.problem.values(*self.settings(points)), NO_LOOP))
         return float(values[0]), (values[1:] - values[0]) / DIFFERENCE
 
     def _constraints(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

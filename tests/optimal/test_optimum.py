@@ -236,3 +236,12 @@ def test_a_pure_delay_needs_a_filter_for_derivative_action():
         optimal(DELAY, "PID", tau_F=0.0)
     found = optimal(DELAY, "PID")  # a neutral loop
     assert found.value < optimal(DELAY, "PI").value
+
+
+def test_no_controller_is_given_for_a_bound_that_none_meets():
+    """An unstable pole under PID: the smallest peak is near 1.4; the search for less ends in words, not in a number."""
+    front = trade_off(Plant(-2, 1, (-10,)), "PID", Ms=(1.2, 1.3, 1.5, 2.0))
+    assert [max(best.Ms, best.Mt) for best in front] == pytest.approx([1.5, 2.0], rel=1e-4)
+    assert all(best.value < 10 for best in front)
+    with pytest.raises(NoOptimum, match="smallest that was found is about 1"):
+        optimal(Plant(-2, 1, (-10,)), "PID", 1.2)

@@ -306,3 +306,32 @@ def test_a_later_form_that_does_not_know_the_plant_leads_back_to_SIMC():
     app.button(key="remedy_refusal").click().run()
     assert not app.error
     assert "rule" not in address(app)
+
+
+def test_further_numbers_are_listed_where_they_are_chosen():
+    """e^{-s}/(8s+1), SIMC: bandwidth of S 0.355417, IE 2; tau_c + theta = 2 behind a ramp."""
+    app = tuned("Compare", plant="exp(-s)/(8s+1)", unit="s")
+    assert "IE, load" not in str(app.dataframe[0].value)
+    chosen = ["bandwidth of S", "IE, load", "error behind a set-point ramp of 1 per time", "decay ratio, load"]
+    app.multiselect(key="measures").set_value(chosen).run()
+    assert not app.exception
+    listed = dict(zip(app.dataframe[0].value["quantity"], app.dataframe[0].value["present"], strict=True))
+    assert listed["bandwidth of S [rad/s]"] == "0.3554"
+    assert listed["IE, load"] == "2"
+    assert listed["error behind a set-point ramp of 1 per time"] == "2"
+    assert listed["decay ratio, load"] == "0"
+
+
+@pytest.mark.parametrize(
+    "plant", ["exp(-s)/(8s+1)", "exp(-s)/s^2", "exp(-s)", "-2 exp(-s)/(10s+1)", "exp(-s)/(4s^2+s+1)"]
+)
+@pytest.mark.parametrize("settings", ["", "ideal~0.2~inf~0~0~1~0", "ideal~99~1~0~0~1~0"])
+def test_all_further_numbers_are_a_number_or_a_dash(plant, settings):
+    own = {"own": settings, "controller": "own"} if settings else {}
+    app = tuned("Compare", plant=plant, **own)
+    field = app.multiselect(key="measures")
+    field.set_value(list(field.options)).run()
+    assert not app.exception
+    table = app.dataframe[0].value
+    assert len(table) > len(field.options)
+    assert not [each for each in table["present"] if each in ("nan", "inf", "None")]

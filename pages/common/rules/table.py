@@ -18,6 +18,7 @@ from simc_core.controllers.forms import IController
 from simc_core.errors import SimcError
 from simc_core.notation import number
 from simc_core.studies.comparison import Row
+from simc_core.studies.optimum import FILTER, scale_of
 
 EQUAL = 1e-4  # relative, to an optimum that is known to some 1e-5
 KEPT = 32  # questions, of all sessions together
@@ -38,7 +39,7 @@ class Question:
     plant: Plant
     kinds: tuple[str, ...]
     Ms: float | None
-    tau_F: float | None
+    tau_F: float
     criterion: str
 
     @property
@@ -52,7 +53,8 @@ def question_of(design: Design) -> Question:
     """The question that the design asks."""
     asked = design.compared
     plant = design.plant if asked.plant == PRESENT else USUAL[asked.plant].plant
-    return Question(plant, asked.kinds, asked.Ms, asked.tau_F, asked.criterion)
+    tau_F = FILTER * scale_of(plant) if asked.tau_F is None else asked.tau_F
+    return Question(plant, asked.kinds, asked.Ms, tau_F, asked.criterion)
 
 
 class Rows:

@@ -48,7 +48,8 @@ class Compared:
 
     def __post_init__(self):
         put = object.__setattr__
-        one_of("compared_plant", self.plant, (PRESENT, *USUAL))
+        if self.plant != PRESENT:
+            one_of("compared_plant", self.plant, USUAL)
         one_of("compared_kind", self.kind, KINDS)
         one_of("compared_criterion", self.criterion, CRITERIA)
         if self.rule:

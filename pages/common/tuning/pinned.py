@@ -10,6 +10,7 @@ from pages.common.parts.units import unit_of, with_plain_unit
 from pages.common.session import state
 from pages.common.session.design import MOST_PINS, Tuning
 from pages.common.studies.single import Study, study, study_of_settings
+from pages.common.tuning import measures
 from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
 from simc_core.notation import number
@@ -63,15 +64,16 @@ def pin_button(present: Study) -> None:
 
 def design_table(studies: list[tuple[str, Study]]) -> None:
     """One column a design, present first; a loop that is not stable has no figures."""
-    columns = {name: facts(each) for name, each in studies}
-    sheet = state.design_now().sheet
+    place, more = st.container(), measures.choose()
+    columns = {name: facts(each) | measures.values(each, more) for name, each in studies}
+    sheet, units = state.design_now().sheet, UNITS | {label: measures.MEASURES[label].unit for label in more}
     rows = [
-        {"quantity": with_plain_unit(label, unit_of(UNITS.get(label, ""), sheet))}
+        {"quantity": with_plain_unit(label, unit_of(units.get(label, ""), sheet))}
         | {name: each.get(label, "–") for name, each in columns.items()}
-        for label in LABELS
+        for label in (*LABELS, *more)
     ]
     wide = {"quantity": st.column_config.TextColumn(width="medium")}
-    st.dataframe(
+    place.dataframe(
         rows, hide_index=True, width="content", height="content", row_height=27, column_config=wide, key="designs"
     )
     pins = state.value("pins")
