@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 
 from pages.common.session.project import load
 from simc_core import Plant
-from tests.browser.tools import THEMES, WIDTHS, fits, idle, picture
+from tests.browser.tools import WIDTHS, both_themes, fits, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1: PI Kc 0.57, tau_I 8
 PLACES = ("", "plant", "half_rule", "tuning", "cascade", "accuracy")
@@ -67,15 +67,15 @@ def main_numbers(page: Page) -> list[str]:
     return re.findall(r"\d+\.\d+", page.get_by_test_id("stMain").inner_text())
 
 
-@pytest.mark.parametrize("theme", THEMES)
 @pytest.mark.parametrize("width", WIDTHS)
 @pytest.mark.parametrize("place", PLACES)
-def test_every_page_fits_both_widths_in_both_themes(place, width, theme, server, open_page):
-    page = open_page(f"{server}/{place}", width, theme)
-    expect(page.get_by_test_id("stMain")).to_be_visible()
-    assert page.locator(TRACEBACK).count() == 0
-    picture(page, place or "home")
-    assert fits(page)
+def test_every_page_fits_both_widths_in_both_themes(place, width, server, open_page):
+    page = open_page(f"{server}/{place}", width)
+    for _ in both_themes(page):
+        expect(page.get_by_test_id("stMain")).to_be_visible()
+        assert page.locator(TRACEBACK).count() == 0
+        picture(page, place or "home")
+        assert fits(page)
 
 
 def test_what_cannot_be_read_is_said_beside_the_field_and_the_last_plant_stays(server, open_page):
