@@ -46,7 +46,7 @@ def chromium() -> Iterator[Browser]:
 
 @pytest.fixture(scope="session")
 def idle_tabs(chromium) -> Iterator[list[Tab]]:
-    """Tabs that no test uses now. What a tab has loaded and compiled once, it need not load again: a third of the time."""
+    """Tabs that no test uses now. What a tab has loaded and compiled once it has: a page takes a third of the time."""
     tabs: list[Tab] = []
     yield tabs
     for tab in tabs:
@@ -55,7 +55,7 @@ def idle_tabs(chromium) -> Iterator[list[Tab]]:
 
 @pytest.fixture
 def open_page(request, server, chromium, idle_tabs) -> Iterator[Callable[..., Page]]:
-    """open_page(address, width=1280, theme="light", touch=False): a page, idle, in a context that no other page has.
+    """A factory of pages, idle, each in a context that no other page has.
 
     Storage, cookies and permissions are empty; only the browser's cache may be warm. When the test ends, errors of the
     browser and requests to other hosts fail it, and its tabs are left to the next one unless it failed.
@@ -63,10 +63,13 @@ def open_page(request, server, chromium, idle_tabs) -> Iterator[Callable[..., Pa
     used: list[Tab] = []
     failed_before = request.session.testsfailed
 
-    def start(address: str, width: int = 1280, theme: str = "light", touch: bool = False) -> Page:
-        tab = next((tab for tab in idle_tabs if tab.touch == touch), None)
+    def start(
+        address: str, width: int = 1280, theme: str = "light", touch: bool = False, locale: str = "en-US"
+    ) -> Page:
+        how = {"has_touch": touch, "locale": locale}
+        tab = next((tab for tab in idle_tabs if tab.how == how), None)
         if tab is None:
-            tab = Tab(chromium, touch)
+            tab = Tab(chromium, how)
         else:
             idle_tabs.remove(tab)
         used.append(tab)

@@ -33,6 +33,9 @@ DRAWN = """() => {
         && !seen('[data-testid=stSkeleton], [data-stale=true]').length;
 }"""
 LIGHTNESS = "element => Number(getComputedStyle(element).backgroundColor.match(/\\d+/)[0])"  # its red, 0 to 255
+VIOLATIONS = """document.addEventListener('securitypolicyviolation', event => {
+    console.error('forbidden by the policy: ' + event.violatedDirective + ' ' + event.blockedURI);
+});"""
 # On a deep link Streamlit first looks for itself below the page's own path, and finds itself one level up.
 PROBE = re.compile(r"/\w+/_stcore/(health|host-config)$")
 PATIENCE = 30  # seconds for a server to start on a busy machine
@@ -147,6 +150,8 @@ def nyquist_scale(page: Page) -> float:
 
 
 def watch(page: Page, faults: list[str]) -> None:
+    """Enter among the faults: errors of the console, exceptions, what the policy forbids, requests to other hosts."""
+
     def console(message) -> None:
         where = message.location.get("url", "")
         if message.type == "error" and not PROBE.search(where):
@@ -156,6 +161,7 @@ def watch(page: Page, faults: list[str]) -> None:
         if not asked.url.startswith(("http://127.0.0.1:", "ws://127.0.0.1:", "data:", "blob:", "about:")):
             faults.append(f"request to another host: {asked.url}")
 
+    page.add_init_script(VIOLATIONS)
     page.on("console", console)
     page.on("pageerror", lambda error: faults.append(f"exception: {error}"))
     page.on("request", request)
@@ -164,15 +170,15 @@ def watch(page: Page, faults: list[str]) -> None:
 class Tab:
     """A page in a context of its own, watched, for one test after the other."""
 
-    def __init__(self, browser: Browser, touch: bool):
-        self.touch = touch
-        self.page = browser.new_context(has_touch=touch).new_page()
+    def __init__(self, browser: Browser, how: dict):
+        self.how = how  # settings of the context
+        self.page = browser.new_context(**how).new_page()
         self.page.set_default_timeout(1000 * PATIENCE)
         self.faults: list[str] = []
         watch(self.page, self.faults)
 
     def clean(self, server: str) -> None:
-        """Leave the app, so that it writes no more, and forget what a test left: storage, cookies, permissions, mouse."""
+        """Leave the app, that it writes no more, and forget what a test left: storage, cookies, permissions, mouse."""
         self.page.goto(f"{server}/_stcore/health")
         self.page.evaluate("localStorage.clear(); sessionStorage.clear()")
         self.page.context.clear_cookies()
