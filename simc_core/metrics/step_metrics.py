@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.metrics.piece_zeros import SLOPE, LevelCrossings, Turns, crossings
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import ENDS
 
 NOISE = 1e-11  # of the largest value; what changes less in a piece has come to rest, its signs are rounding

@@ -7,7 +7,7 @@ from numpy.polynomial import chebyshev
 
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import NestedLoops
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import round_up
 from simc_core.simulation.scenario import Scenario
