@@ -26,6 +26,10 @@ from simc_core.implementation.sampled_margins import longest_sampling_period, sa
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.many.read_list import LoopList, read_list
+from simc_core.many.result import Judged, Result
+from simc_core.many.run import tune_many
+from simc_core.many.tune_rows import tune_chunk, tune_row
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import Performance, performance
 from simc_core.metrics.step_metrics import StepMetrics

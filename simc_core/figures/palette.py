@@ -49,6 +49,10 @@ TIME = "t  [time unit]"
 FREQUENCY = "ω  [rad/time unit]"
 
 
+TICKS = 12  # px, of the numbers on all axes
+PLOTLY_POWER = 1.25  # plotly draws powers of ten so much larger than it is told
+
+
 def css_variables(selector: str) -> str:
     """A CSS rule that gives the colours to styles and scripts of the pages, as --simc-y, --simc-y-pin-1, ...
 
@@ -118,7 +122,7 @@ def axis(title: str, **more: object) -> dict[str, Any]:
         "gridcolor": GRID,
         "zerolinecolor": GRID,
         "linecolor": NEUTRAL,
-        "tickfont": {"size": 11},
+        "tickfont": {"size": TICKS},
         "ticks": "outside",
         "ticklen": 3,
         "automargin": True,
@@ -128,7 +132,7 @@ def axis(title: str, **more: object) -> dict[str, Any]:
 
 def log_axis(title: str, **more: object) -> dict[str, Any]:
     """A logarithmic axis, decades as powers of ten."""
-    return axis(title, type="log", exponentformat="power", dtick=1) | more
+    return axis(title, type="log", exponentformat="power", dtick=1, tickfont={"size": TICKS / PLOTLY_POWER}) | more
 
 
 def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None = None, **layout: object) -> Figure:
