@@ -9,6 +9,7 @@ from simc_core.errors import (
     FormError,
     InvalidParameter,
     NoOptimum,
+    NotIdentifiable,
     NotReducible,
     NotStable,
     OutOfDomain,
@@ -17,6 +18,7 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.identification.trend import Trend
 from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.convert import Typed, from_box, to_box
