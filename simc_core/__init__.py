@@ -9,6 +9,7 @@ from simc_core.errors import (
     FormError,
     InvalidParameter,
     NoOptimum,
+    NotIdentifiable,
     NotReducible,
     NotStable,
     OutOfDomain,
@@ -17,6 +18,11 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.identification.identified import Identified
+from simc_core.identification.identify import identify
+from simc_core.identification.moves import find_moves
+from simc_core.identification.rank import identify_all
+from simc_core.identification.trend import Trend
 from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.convert import Typed, from_box, to_box

@@ -44,6 +44,10 @@ class NoOptimum(SimcError):
     """No controller is best under the bound: none meets it, or ever better ones do."""
 
 
+class NotIdentifiable(SimcError):
+    """A trend from which no numbers may be given; the message says why, and what to record instead."""
+
+
 class RuleEnds(InvalidParameter):
     """SIMC has no setting for this model; `change` is a change of the design that has one, {} if none is known."""
 
