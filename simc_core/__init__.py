@@ -6,6 +6,7 @@ from simc_core.certificate.verdict import NestedStability, Stability, count_unst
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import (
     BoxError,
+    DataError,
     FormError,
     InvalidParameter,
     NoOptimum,
@@ -18,6 +19,7 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.identification.reading.reader import read_trend
 from simc_core.identification.trend import Trend
 from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
