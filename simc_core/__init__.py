@@ -19,6 +19,7 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.identification.graphical import ByHand, by_hand
 from simc_core.identification.reading.reader import read_trend
 from simc_core.identification.trend import Trend
 from simc_core.implementation.boxes.box import Box

@@ -9,6 +9,8 @@ every key that is used has its entry, and every entry is used.
 SOURCES = {
     "AH04": "K. J. Astrom and T. Hagglund: Revisiting the Ziegler-Nichols step response method for PID control. "
     "Journal of Process Control 14 (2004) 635-650.",
+    "AH95": "K. J. Astrom and T. Hagglund: PID Controllers: Theory, Design, and Tuning. 2nd edition, Instrument "
+    "Society of America, 1995.",
     "CC53": "G. H. Cohen and G. A. Coon: Theoretical consideration of retarded control. Transactions of the ASME 75 "
     "(1953) 827-834.",
     "CHR52": "K. L. Chien, J. A. Hrones and J. B. Reswick: On the automatic control of generalized passive systems. "
@@ -29,6 +31,7 @@ SOURCES = {
     "RMS86": "D. E. Rivera, M. Morari and S. Skogestad: Internal Model Control. 4. PID Controller Design. Industrial & "
     "Engineering Chemistry Process Design and Development 25 (1986) 252-265. "
     "https://doi.org/10.1021/i200032a041",
+    "S72": "C. L. Smith: Digital Computer Process Control. Intext Educational Publishers, 1972.",
     "SCH97": "H. M. Schaedel: A new method of direct PID controller design based on the principle of cascaded damping "
     "ratios. Proceedings of the European Control Conference, 1997.",
     "SG12": "S. Skogestad and C. Grimholt: The SIMC Method for Smooth PID Controller Tuning. Chapter 5 in R. Vilanova "
