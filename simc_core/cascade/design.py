@@ -13,7 +13,7 @@ from typing import Any
 
 from simc_core import checks
 from simc_core.certificate.verdict import NestedStability, Stability, stability
-from simc_core.controllers.forms import Controller, ParallelPid
+from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.notation import DIGITS, number, rounded_up
@@ -165,7 +165,7 @@ def synthesis_cascade(
     [PSB].
     """
 
-    asked = {
+    asked: dict[str, Any] = {
         "Ms_inner": Ms_inner, "Ms_outer": Ms_outer, "inner": inner, "outer": outer, "N_inner": N_inner,
         "N_outer": N_outer, "lambda_inner": lambda_inner, "lambda_outer": lambda_outer, "b": b,
     }  # fmt: skip
@@ -201,7 +201,7 @@ def _synthesised(
 
     lambda_b = _speed("lambda_inner", lambda_inner, "Ms_inner", Ms_inner, inside, secondary.total_time or 1.0)
     closed = inside(lambda_b)
-    Cb = closed.controllers[0]
+    Cb = closed.outermost
     tau_F = float(numerator(secondary, lambda_b)[1]) if N_outer is None and secondary.order else None
     N = 20.0 if N_outer is None else N_outer
 
@@ -217,7 +217,7 @@ def _synthesised(
         outside,
         (primary.total_time or 1.0) + secondary.theta + lambda_b,
     )
-    Ca = outside(lambda_a).controllers[1]
+    Ca = outside(lambda_a).outermost
     loop = CascadeLoop(primary, secondary, Ca, Cb)
     return CascadeDesign(loop, Cb, Ca, lambda_inner=lambda_b, lambda_outer=lambda_a)
 
@@ -242,17 +242,19 @@ def _tuned(
         return closed(_filtered(simc(model, speed), speed))
 
     found = _speed(f"tau_c_{loop}", tau_c, f"Ms_{loop}", Ms, at, scale)
-    return at(found).controllers[-1], found
+    return at(found).outermost, found
 
 
-def _filtered(controller: Controller, tau_c: float) -> Controller:
+def _filtered(controller: SeriesPid | IdealPid | IController, tau_c: float) -> Controller:
     """With the filter of a PID."""
-    if "tau_F" not in controller.OPTIONAL or controller.tau_D == 0:
+    if isinstance(controller, IController) or controller.tau_D == 0:
         return controller
     return replace(controller, tau_F=tau_c / FILTER)
 
 
-def _speed(name: str, given: float | None, Ms_name: str, Ms: float | None, at, scale: float) -> float:
+def _speed(
+    name: str, given: float | None, Ms_name: str, Ms: float | None, at: Callable[[float], NestedLoops], scale: float
+) -> float:
     """lambda or tau_c as given, else the one Ms asks for."""
     if given is not None:
         return checks.positive_time(name, given)
@@ -300,7 +302,9 @@ def _on_dead_time(name: str, block: Plant, theta: float) -> list[str]:
 
 
 def _on_inner(loop: CascadeLoop) -> list[str]:
-    found = stability(loop.nested.inside)
+    inside = loop.nested.inside
+    assert inside is not None  # both methods design an inner loop
+    found = stability(inside)
     if found.verdict == "stable":
         return []
     return [
@@ -333,4 +337,4 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
         return NestedLoops((product,), (direct_synthesis(product, lambda_, kind),))
 
     lambda_ = smallest_speed_with_peak(at, Ms, product.total_time or 1.0, "lambda", "Ms")
-    return CascadeLoop(primary, secondary, at(lambda_).controllers[0], None)
+    return CascadeLoop(primary, secondary, at(lambda_).outermost, None)

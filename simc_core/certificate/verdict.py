@@ -20,7 +20,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Literal
+from typing import Literal, overload
 
 from simc_core.algebra.factors import Factored
 from simc_core.certificate.characteristic import Characteristic, characteristic, shifted
@@ -68,7 +68,11 @@ class NestedStability:
         return self.verdict == "stable" and inside
 
 
-def stability(loop: Loop | CascadeLoop | NestedLoops) -> "Stability | NestedStability":
+@overload
+def stability(loop: Loop) -> Stability: ...
+@overload
+def stability(loop: CascadeLoop | NestedLoops) -> NestedStability: ...
+def stability(loop: Loop | CascadeLoop | NestedLoops) -> Stability | NestedStability:
     """Whether a loop is stable, by the argument principle, with its dead time exact.
 
     Parameters
@@ -170,15 +174,19 @@ def _verdicts(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
     """count_unstable of each."""
     loops = [[term for term in terms if term.gain] for terms in loops]
     functions = [characteristic(terms) for terms in loops]
-    found = [_at_infinity(f) for f in functions]
-    open_ = [i for i, verdict in enumerate(found) if verdict is None]
+    found: dict[int, Stability] = {}
+    for i, f in enumerate(functions):
+        if verdict := _at_infinity(f):
+            found[i] = verdict
+    open_ = [i for i in range(len(functions)) if i not in found]
     for i, turns in zip(open_, windings([functions[i] for i in open_]), strict=True):
         neutral = functions[i].neutral
         if turns.zeros is None:
+            assert turns.touches is not None  # that is why there is no number
             found[i] = _beside(loops[i], turns.touches, neutral)
         else:
             found[i] = Stability("unstable" if turns.zeros else "stable", turns.zeros, neutral)
-    return found
+    return [found[i] for i in range(len(functions))]
 
 
 def _at_infinity(f: Characteristic) -> Stability | None:

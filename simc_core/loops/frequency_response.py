@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
@@ -24,7 +25,7 @@ class FrequencyResponse:
     GS: np.ndarray
 
 
-def frequency_response(loop: Loop | CascadeLoop | NestedLoops, omega) -> FrequencyResponse:
+def frequency_response(loop: Loop | CascadeLoop | NestedLoops, omega: ArrayLike) -> FrequencyResponse:
     """L, S, T, KS and GS of the loop, with its dead time exact.
 
     Parameters
@@ -55,14 +56,14 @@ def frequency_response(loop: Loop | CascadeLoop | NestedLoops, omega) -> Frequen
     >>> float(abs(frequency_response(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)), [0.5]).L[0]).round(12))
     1.0
     """
-    omega = at_frequencies(omega)
+    at = at_frequencies(omega)
     match loop:
         case Loop():
-            return _of_single(loop, omega)
+            return _of_single(loop, at)
         case NestedLoops():
-            return _of_outermost(loop, omega)
+            return _of_outermost(loop, at)
         case CascadeLoop():
-            return _of_outermost(loop.nested, omega)
+            return _of_outermost(loop.nested, at)
         case _:
             raise not_a_loop(loop)
 
@@ -79,7 +80,7 @@ def _of_single(loop: Loop, omega: np.ndarray) -> FrequencyResponse:
 
 def _of_outermost(loop: NestedLoops, omega: np.ndarray) -> FrequencyResponse:
     s = 1j * omega
-    L, C, G = open_loop(loop, s), loop.controllers[-1].factored(s), loop.blocks[-1].factored(s)
+    L, C, G = open_loop(loop, s), loop.outermost.factored(s), loop.blocks[-1].factored(s)
     S = 1 / (1 + L)
     return FrequencyResponse(omega, L, S, L * S, C * S, G * S)
 
@@ -98,13 +99,13 @@ def open_loop(loops: NestedLoops, s: np.ndarray) -> np.ndarray:
     return loops.own(s) * closed_inside(loops, s)
 
 
-def at_frequencies(omega) -> np.ndarray:
+def at_frequencies(omega: ArrayLike) -> np.ndarray:
     """omega as an array of shape (n,).
 
     Raises InvalidParameter where these are not positive finite numbers, or more than MOST_FREQUENCIES.
     """
-    omega = checks.array("omega", omega, MOST_FREQUENCIES)
-    wrong = omega[~(np.isfinite(omega) & (omega > 0))]
+    found = checks.array("omega", omega, MOST_FREQUENCIES)
+    wrong = found[~(np.isfinite(found) & (found > 0))]
     if wrong.size:
         raise InvalidParameter(f"omega must be positive and finite, got {wrong[0]:g}")
-    return omega
+    return found

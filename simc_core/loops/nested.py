@@ -36,7 +36,7 @@ class NestedLoops:
     blocks: tuple[Plant, ...]
     controllers: tuple[Controller | None, ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__
         put(self, "blocks", checks.items("blocks", self.blocks, MOST_LOOPS))
         put(self, "controllers", checks.items("controllers", self.controllers, MOST_LOOPS))
@@ -47,6 +47,13 @@ class NestedLoops:
             )
         if self.controllers[-1] is None:
             raise InvalidParameter("the outermost controller must be given, got None")
+
+    @property
+    def outermost(self) -> Controller:
+        """The controller of the outermost loop."""
+        controller = self.controllers[-1]
+        assert controller is not None  # refused at construction
+        return controller
 
     @property
     def inside(self) -> "NestedLoops | None":
@@ -60,7 +67,7 @@ class NestedLoops:
     def own(self) -> Factored:
         """What the outermost loop has in series with the closed loop inside it: controller and blocks between."""
         count = len(self.inside.blocks) if self.inside else 0
-        product = self.controllers[-1].factored
+        product = self.outermost.factored
         for block in self.blocks[count:]:
             product = product * block.factored
         return product
@@ -108,6 +115,6 @@ class CascadeLoop:
         return self.nested
 
 
-def not_a_loop(given) -> WrongType:
+def not_a_loop(given: object) -> WrongType:
     """The refusal of whatever works on all kinds of loops."""
     return WrongType(f"loop must be a Loop, CascadeLoop or NestedLoops, got {type(given).__name__}")

@@ -143,8 +143,8 @@ def measures(steps: Steps, with_times: bool = True) -> Measures:
     rise, settling = _times(steps, found, levels, right[:m]) if with_times else np.full((2, len(peak)), np.nan)
     integrals = np.abs([IAE, ISE, ITAE, TV])  # what is not alive has no sign of its own
     integrals[3] += np.abs(left[m:] - steps.before(right[m:]))
-    integrals = np.add.reduceat(integrals, steps.first, axis=1)
-    return Measures(*integrals, overshoot, peak, peak_time, rise, settling)
+    IAE, ISE, ITAE, TV = np.add.reduceat(integrals, steps.first, axis=1)
+    return Measures(IAE, ISE, ITAE, TV, overshoot, peak, peak_time, rise, settling)
 
 
 def _extremes(

@@ -54,7 +54,7 @@ class Search:
     series: bool = False
     guess: tuple[float, float] | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise InvalidParameter(f"kind must be PI or PID, got {self.kind!r}")
         if self.kind == "PI":

@@ -11,12 +11,11 @@ from simc_core.errors import InvalidParameter
 from simc_core.plants.plant import Plant
 
 
+@dataclass(frozen=True, slots=True)
 class _Model:
     """Bounds by field name, checked at construction."""
 
-    __slots__ = ()
-
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for field in fields(self):
             value = _CHECKS[field.name](field.name, getattr(self, field.name))
             object.__setattr__(self, field.name, value)
@@ -67,7 +66,7 @@ class SecondOrderDelay(_Model):
     tau1: float
     tau2: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         _Model.__post_init__(self)
         if self.tau2 > self.tau1:
             raise InvalidParameter(f"tau2 must be <= tau1 = {self.tau1:g}, got {self.tau2:g}")

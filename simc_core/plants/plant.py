@@ -7,10 +7,12 @@ T < 0 is a zero in the right half plane (inverse response), tau < 0 an unstable 
 1/(20 s - 1) is k = -1, tau = -20. Time has one unit, the user's own.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.algebra.factors import Factored, factors
@@ -36,7 +38,7 @@ class Plant:
     lag_pairs: tuple[tuple[float, float], ...] = ()
     lead_pairs: tuple[tuple[float, float], ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__  # the only way to normalise a frozen dataclass
         put(self, "k", checks.gain("k", self.k))
         put(self, "theta", checks.optional_time("theta", self.theta))
@@ -52,7 +54,7 @@ class Plant:
             raise InvalidParameter(f"degree of the numerator must be <= {poles}, that of the denominator, got {zeros}")
 
     @classmethod
-    def from_polynomials(cls, num, den, theta: float = 0.0) -> "Plant":
+    def from_polynomials(cls, num: Iterable[float], den: Iterable[float], theta: float = 0.0) -> "Plant":
         """num(s)/den(s) e^{-theta s}; coefficients in descending powers of s.
 
         Roots are found by eigenvalues; clusters that are one multiple root within rounding are made one.
@@ -61,7 +63,9 @@ class Plant:
         return cls.from_products([num], [den], theta)
 
     @classmethod
-    def from_products(cls, nums, dens, theta: float = 0.0) -> "Plant":
+    def from_products(
+        cls, nums: Iterable[Iterable[float]], dens: Iterable[Iterable[float]], theta: float = 0.0
+    ) -> "Plant":
         """prod(num_i)/prod(den_j) e^{-theta s}, each a polynomial; factors given apart stay exact."""
         top, bottom = factorise("numerator", nums), factorise("denominator", dens)
         integrators = bottom.at_origin - top.at_origin
@@ -71,7 +75,7 @@ class Plant:
             )
         return cls(top.constant / bottom.constant, theta, bottom.times, top.times, integrators, bottom.pairs, top.pairs)
 
-    def response(self, s) -> np.ndarray:
+    def response(self, s: ArrayLike) -> np.ndarray:
         """G(s), complex, any shape of s; exact dead time."""
         return self.factored(s)
 
@@ -186,11 +190,11 @@ def scaled(time: float, ratio: Fraction) -> float:
     return time * ratio.numerator / ratio.denominator
 
 
-def _times(name: str, values) -> tuple[float, ...]:
+def _times(name: str, values: object) -> tuple[float, ...]:
     return tuple(checks.time_constant(f"{name}[{i}]", value) for i, value in enumerate(checks.items(name, values)))
 
 
-def _pairs(name: str, values) -> tuple[tuple[float, float], ...]:
+def _pairs(name: str, values: object) -> tuple[tuple[float, float], ...]:
     pairs = []
     for i, value in enumerate(checks.items(name, values)):
         pair = checks.items(f"{name}[{i}]", value)

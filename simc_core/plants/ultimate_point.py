@@ -20,6 +20,6 @@ class Ultimate:
     Ku: float
     Pu: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "Ku", checks.gain("Ku", self.Ku))
         object.__setattr__(self, "Pu", checks.positive_time("Pu", self.Pu))

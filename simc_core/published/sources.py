@@ -15,8 +15,15 @@ SOURCES = {
     "(1953) 827-834.",
     "CHR52": "K. L. Chien, J. A. Hrones and J. B. Reswick: On the automatic control of generalized passive systems. "
     "Transactions of the ASME 74 (1952) 175-185.",
+    "D07": "V. V. Denisenko: PID controllers, principles and tuning (in Russian). 2007; as this project received it.",
+    "FL00": "U. Forssell and L. Ljung: Identification of unstable systems using output error and Box-Jenkins model "
+    "structures. IEEE Transactions on Automatic Control 45 (2000) 137-141.",
+    "GP73": "G. H. Golub and V. Pereyra: The differentiation of pseudo-inverses and nonlinear least squares problems "
+    "whose variables separate. SIAM Journal on Numerical Analysis 10 (1973) 413-432.",
     "GS18": "C. Grimholt and S. Skogestad: Optimal PI and PID control of first-order plus delay processes and "
     "evaluation of the original and improved SIMC rules. Journal of Process Control 70 (2018) 36-46.",
+    "H64": "P. J. Huber: Robust estimation of a location parameter. Annals of Mathematical Statistics 35 (1964) "
+    "73-101.",
     "K54": "C. Kessler: Ueber die Vorausberechnung optimal abgestimmter Regelkreise (magnitude optimum), "
     "Regelungstechnik 2 (1954) and 3 (1955); Das symmetrische Optimum, Regelungstechnik 6 (1958).",
     "K95": "U. Kuhn: Eine praxisnahe Einstellregel fuer PID-Regler: die T-Summen-Regel. Automatisierungstechnische "
@@ -24,6 +31,8 @@ SOURCES = {
     "LPLB98": "Y. Lee, S. Park, M. Lee and C. Brosilow: PID controller tuning for desired closed-loop responses for "
     "SI/SO systems. AIChE Journal 44 (1998) 106-115.",
     "M67": "P. W. Murrill: Automatic Control of Processes. International Textbook Company, 1967.",
+    "NW87": "W. K. Newey and K. D. West: A simple, positive semi-definite, heteroskedasticity and autocorrelation "
+    "consistent covariance matrix. Econometrica 55 (1987) 703-708.",
     "PSB": "Prelic, Sekara and Boskovic: analytic design of PI and PID controllers for cascade processes under "
     "robustness constraints.",
     "R69": "A. A. Rovira, P. W. Murrill and C. L. Smith: Tuning controllers for setpoint changes. Instruments and "
@@ -45,6 +54,9 @@ SOURCES = {
     "Engineering Chemistry Research 31 (1992) 2625-2628.",
     "V06": "Viteckova: Jednoduche serizeni regulatoru metodou SIMC (Simple controller tuning by the SIMC method). In "
     "Czech, 2006.",
+    "YIG07": "Z.-J. Yang, H. Iemura, S. Kanae and K. Wada: Identification of continuous-time systems with multiple "
+    "unknown time delays by global nonlinear least-squares and instrumental variable methods. Automatica 43 (2007) "
+    "1257-1264.",
     "ZN42": "J. G. Ziegler and N. B. Nichols: Optimum settings for automatic controllers. Transactions of the ASME 64 "
     "(1942) 759-768.",
 }

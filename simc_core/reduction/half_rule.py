@@ -108,6 +108,39 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     )
 
 
+def reduced_model(plant: Plant, order: int = 1) -> Model:
+    """The model of `half_rule` alone, without the steps and without what the other order is worth: many times faster.
+
+    Parameters
+    ----------
+    plant : Plant
+        The plant to be reduced.
+    order : int
+        1 for a PI controller, 2 for a PID.
+
+    Returns
+    -------
+    Model
+        `half_rule(plant, order).model`.
+
+    Raises
+    ------
+    NotReducible
+        The plant has no SIMC model.
+
+    References
+    ----------
+    [SK03 eq. 10-11]
+
+    Examples
+    --------
+    >>> from simc_core import parse_plant
+    >>> reduced_model(parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))"))
+    FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
+    """
+    return _chosen(plant, dynamics(plant), checks.whole("order", order, 1, 2), 0.0, "2003")
+
+
 def _chosen(plant: Plant, parts: Dynamics, order: int, h: float, rules: str) -> Model:
     candidates, _ = _reduce(plant, parts, order, h, rules)
     return next(candidate.model for candidate in candidates if candidate.chosen)

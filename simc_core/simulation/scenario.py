@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter, WrongType
@@ -37,7 +38,7 @@ class Scenario:
     disturbance_ramp: float = 0.0
     actuation: Actuation = LINEAR
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__
         for name in ("setpoint", "disturbance", "disturbance2"):
             put(self, name, checks.real(name, getattr(self, name), -checks.LARGEST_GAIN, checks.LARGEST_GAIN))
@@ -66,7 +67,7 @@ class TimeResponse:
     u: np.ndarray
 
 
-def instants(given) -> np.ndarray:
+def instants(given: ArrayLike) -> np.ndarray:
     """`given` as increasing instants >= 0, shape (n,). Raises InvalidParameter."""
     t = checks.array("t", given, MOST_POINTS)
     if not np.all(np.isfinite(t)) or t[0] < 0 or np.any(np.diff(t) < 0):

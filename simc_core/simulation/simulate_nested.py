@@ -80,7 +80,7 @@ def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
     heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d
     starts, t_end = _times(loop, scenario, heights)
     pieces = steps_of(loop).run(t_end)
-    t, inputs, outputs = superposed(pieces, heights, starts, t_end, scenario)
+    t, inputs, outputs = superposed(pieces, heights.tolist(), starts.tolist(), t_end, scenario)
     return NestedResponse(t, inputs[0], inputs[1:], outputs[:N], outputs[N:])
 
 

@@ -110,7 +110,8 @@ def trade_off(
     """
     bounds = sorted({peak_bound("Ms", each) for each in checks.array("Ms", Ms, MOST_BOUNDS).tolist()}, reverse=True)
     search = search_for(plant, kind, criterion, tau_F, series)
-    found, warm = [], None
+    found: list[Optimum] = []
+    warm = None
     for M in bounds:
         if found and not found[-1].active:  # what is best without a bound is best under all that it meets
             last = found[-1]

@@ -6,8 +6,9 @@ Pure Python, no streamlit. links.py writes a Design as an address, project.py as
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
+from pages.common.session.home import Home
 from pages.common.session.record import Chosen, Origin
-from pages.common.session.sheet import Sheet, ratio
+from pages.common.session.sheet import Sheet, one_of, ratio
 from simc_core import BOXES, Actuation, Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
@@ -195,7 +196,7 @@ class Design:
     source: where the controller comes from, "simc" by tuning, or "own", the settings in `own`.
     own: my settings, None until there are any.   now: what is in the plant now, the baseline; None where not told.
     pins: tunings and settings set aside to compare with the present one.
-    box: what the settings are typed into, a key of BOXES, "" where not told.
+    box: what the settings are typed into, a key of BOXES, "" where not told.   home: how they are taken there.
     record: what is chosen of the record on the page From data.
     origin: of a plant that was identified; None for one that came otherwise, or has changed since.
     """
@@ -215,6 +216,7 @@ class Design:
     box: str = ""
     record: Chosen = field(default_factory=Chosen)
     origin: Origin | None = None
+    home: Home = field(default_factory=Home)
 
     def __post_init__(self):
         one_of("form", self.form, FORMS)
@@ -250,6 +252,7 @@ PLACES: dict[str, tuple[str, str]] = {
     "filter_outer": ("cascade", "filter_outer"),
     **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
     **{name: ("record", name) for name in ("example", "structure", "begin", "end", "bad")},
+    **{name: ("home", name) for name in ("rounding", "language", "exported")},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
     "d_time": ("excitation", "load_time"),
@@ -341,10 +344,3 @@ def _in_time(record, time: Fraction):
     """The record with those of its fields that are times multiplied."""
     given = {name: getattr(record, name) for name in TIMES if getattr(record, name, None)}
     return replace(record, **{name: value * time.numerator / time.denominator for name, value in given.items()})
-
-
-def one_of(name: str, value, choices: tuple[str, ...]) -> str:
-    """`value`, which must be one of `choices`. Raises InvalidParameter."""
-    if value not in choices:
-        raise InvalidParameter(f"{name} must be one of {', '.join(choices)}, got {str(value)[:40]}")
-    return value

@@ -6,6 +6,7 @@ import streamlit as st
 
 from pages.common.parts.copyable import copyable
 from pages.common.parts.foreign_text import exact, told
+from pages.common.parts.units import time_text
 from pages.common.session import project, state
 from pages.common.session.design import Design
 from pages.common.shell.loops_menu import loops_menu
@@ -46,7 +47,8 @@ def show(place: str) -> Design:
             _block("G_b", design.cascade.secondary)
         else:
             _block("G", design.plant)
-            st.caption(f"{design.plant.kind}, $\\theta$ = {design.plant.theta:g}", width="content")
+            theta = time_text(design.plant.theta, design.sheet)
+            st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content")
         if place in CHAIN:
             chain(place)
     _notices()

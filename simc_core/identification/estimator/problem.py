@@ -1,9 +1,10 @@
 """Separable least squares: what a structure predicts for given dead time and lags, the linear part solved [GP73].
 
-y(t) = b + d t + c e^{-t/tau} + sum g_m x_m(t - theta): everything but theta and the lags is linear, and is projected out.
+y(t) = b + d t + c e^{-t/tau} + sum g_m x_m(t - theta): all but theta and the lags is linear, and is projected out.
 """
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import solve_triangular
@@ -69,7 +70,7 @@ class Problem:
             gains.append(self.structure.columns(record.held, record.held.locate(record.t - x[0]), lags))
         blocks = [np.concatenate(parts) for parts in zip(*gains, strict=True)]
         if self.start:
-            blocks.extend(self._spread(self.structure.free(record.t, lags), i) for i, record in enumerate(self.records))
+            blocks.extend(self.spread(self.structure.free(record.t, lags), i) for i, record in enumerate(self.records))
         if self.structure.key == "unstable":
             target = np.concatenate([all_passed(record, 1 / lags[0]) for record in self.records])
         own = [block if block.ndim == 2 else block[:, None] for block in blocks]
@@ -111,9 +112,10 @@ class Problem:
 
     def _parts(self) -> list[slice]:
         ends = np.cumsum([0, *(record.t.size for record in self.records)])
-        return [slice(int(a), int(b)) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+        return [slice(int(a), int(b)) for a, b in pairwise(ends)]
 
-    def _spread(self, columns: list[Array], i: int) -> Array:
+    def spread(self, columns: list[Array], i: int) -> Array:
+        """Columns of record i among the samples of all."""
         found = np.zeros((self.size, len(columns)))
         for j, column in enumerate(columns):
             found[self.parts[i], j] = column
@@ -123,7 +125,7 @@ class Problem:
         blocks = []
         for i, record in enumerate(self.records):
             s = record.t / record.span
-            blocks.append(self._spread([s**power for power in range(self.degree + 1)], i))
+            blocks.append(self.spread([s**power for power in range(self.degree + 1)], i))
         return np.concatenate(blocks, axis=1)
 
 
@@ -142,7 +144,8 @@ def _bounds(structure: Structure, records: list[Record]) -> tuple[Array, Array]:
 def all_passed(record: Record, a: float) -> Array:
     """(s - a)/(s + a) y for y straight between its samples, at rest before.
 
-    The all-pass turns k'/(s - a) into k'/(s + a), which can be fitted without growth, and leaves white noise white.
+    The all-pass turns k'/(s - a) into k'/(s + a), which can be fitted without growth, and leaves white noise white
+    [FL00].
     """
     h = np.diff(record.t)
     gone = -np.expm1(-a * h) / a

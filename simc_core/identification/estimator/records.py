@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from simc_core.identification.estimator.held_input import Array, HeldInput
+from simc_core.identification.estimator.outliers import spikes
 from simc_core.identification.trend import Trend
 
 MANY_MOVES = 100  # more than these, and a mean may take in a move of OP: they are everywhere
@@ -40,7 +40,7 @@ class Record:
         if self.held.s.size <= MANY_MOVES:
             label = label + np.searchsorted(self.held.s, self.t, "right")
         label = np.unique(label, return_inverse=True)[1]
-        weight = np.bincount(label, self.weight)
+        weight = np.bincount(label, self.weight).astype(float)
         kept = weight > 0
         t = np.bincount(label, self.weight * self.t)[kept] / weight[kept]
         y = np.bincount(label, self.weight * self.y)[kept] / weight[kept]
@@ -64,16 +64,6 @@ def as_record(trend: Trend, between_samples: bool) -> Record:
     steps = np.diff(t)
     even = bool(np.ptp(steps) <= 1e-6 * steps.mean())
     own = steps[steps > 0]
-    return Record(t, trend.y, _without_spikes(trend.y), HeldInput(t_u, trend.u), trend.span, float(np.median(own)), even)
-
-
-def _without_spikes(y: Array) -> NDArray[np.float64]:
-    """Weights for the search: 0 where a sample stands alone far from the median of its seven neighbours."""
-    if y.size < 15:
-        return np.ones(y.size)
-    padded = np.concatenate([np.full(3, np.median(y[:4])), y, np.full(3, np.median(y[-4:]))])
-    around = np.median(np.lib.stride_tricks.sliding_window_view(padded, 7), axis=1)
-    off = np.abs(y - around)
-    low, high = np.quantile(y, [0.02, 0.98])
-    scale = max(1.4826 * float(np.median(off)), 0.005 * float(high - low))
-    return (off <= 8 * scale).astype(float)
+    return Record(
+        t, trend.y, (~spikes(trend.y)).astype(float), HeldInput(t_u, trend.u), trend.span, float(np.median(own)), even
+    )

@@ -23,9 +23,7 @@ def starts(problem: Problem, count: int) -> list[Array]:
     found: list[tuple[int, int]] = []
     for flat in np.argsort(cost, axis=None):
         i, j = divmod(int(flat), theta.size)
-        near = (
-            abs(j - b) <= 2 and float(np.max(np.abs(grid[i] - grid[a]), initial=0.0)) < 0.7 for a, b in found
-        )
+        near = (abs(j - b) <= 2 and float(np.max(np.abs(grid[i] - grid[a]), initial=0.0)) < 0.7 for a, b in found)
         if not any(near):
             found.append((i, j))
             if len(found) == count:
@@ -51,7 +49,7 @@ def costs(problem: Problem, theta: Array, x: Array) -> Array:
     fixed = [problem.fixed]
     if problem.start:
         for i, record in enumerate(problem.records):
-            fixed.append(problem._spread(structure.free(record.t, lags), i))
+            fixed.append(problem.spread(structure.free(record.t, lags), i))
     basis = np.linalg.qr(np.concatenate(fixed, axis=1) * root[:, None])[0]
     left = target - basis @ (basis.T @ target)
     responses = [_responses(problem, record, theta, lags) for record in problem.records]

@@ -11,6 +11,8 @@ from simc_core.identification.estimator.fit import Fit
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.judgement.noise import Noise
 
+WIDE = 2.0  # standard deviation of ln lag before the record is looked at
+
 
 def covariance(fit: Fit, noise: Noise, floor: float) -> Array:
     """Covariance of x = (theta, ln lags...) and the linear part, shape (p, p).
@@ -24,7 +26,19 @@ def covariance(fit: Fit, noise: Noise, floor: float) -> Array:
         Standard deviation below which the noise is not believed.
     """
     freedom = degrees_of_freedom(fit, noise)
-    return spread_of(fit.jacobian, fit.problem.parts, noise, floor)[0] * (freedom + fit.free) / freedom
+    return spread_of(bounded(fit, noise, floor), fit.problem.parts, noise, floor)[0] * (freedom + fit.free) / freedom
+
+
+def bounded(fit: Fit, noise: Noise, floor: float) -> Array:
+    """The jacobian with a row for each of x: theta lies in its bounds, lags within a few powers of e of what is found.
+
+    Without them a lag far below the sampling interval, which no sample shows, would spoil the errors of the others.
+    """
+    count = fit.point.x.size
+    wide = np.array([fit.problem.high[0], *[1.0 if lag == "zeta" else WIDE for lag in fit.problem.structure.lags]])
+    rows = np.zeros((count, fit.free))
+    rows[:, :count] = np.diag(max(noise.sigma, floor) / wide)
+    return np.concatenate([fit.jacobian, rows])
 
 
 def spread_of(jacobian: Array, parts: list[slice], noise: Noise, floor: float) -> tuple[Array, Array]:

@@ -31,6 +31,8 @@ class Estimate:
         theta, ln lags (zeta as it is), gains.
     spread : array, shape (m, m)
         Their covariance; variants that fit nearly as well are in it.
+    gain_error : float
+        Standard error of the gain in the variant taken alone.
     freedom : float
         Degrees of freedom of Student's t for the intervals.
     """
@@ -41,6 +43,7 @@ class Estimate:
     noise: Noise
     values: Array
     spread: Array
+    gain_error: float
     freedom: float
 
 
@@ -73,6 +76,8 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
 
 
 def _weighed(fits: dict[tuple[bool, bool], Fit], floor: float, step: float) -> Estimate:
+    sound = {key: fit for key, fit in fits.items() if fit.problem.structure.integrating or _plausible(fit)}
+    fits = sound or fits
     noises = {key: noise_of(fit) for key, fit in fits.items()}
     closest = min(noises.values(), key=lambda noise: noise.sigma)
     effective = max(closest.effective, 4.0)
@@ -90,7 +95,20 @@ def _weighed(fits: dict[tuple[bool, bool], Fit], floor: float, step: float) -> E
         if key == chosen or np.max(own.diagonal()[1 : other.point.x.size], initial=0.0) < 1.0:
             spread += weight[key] * (own + np.outer(off, off))
             total += weight[key]
-    return Estimate(fit, *chosen, noise, values, spread / total, degrees_of_freedom(fit, noise))
+    alone = float(np.sqrt(_spread(fit, noise, floor, step)[fit.point.x.size, fit.point.x.size]))
+    return Estimate(fit, *chosen, noise, values, spread / total, alone, degrees_of_freedom(fit, noise))
+
+
+def _plausible(fit: Fit) -> bool:
+    """Drift and start do not make more of PV than there is, and theta is within the record: else they only make up
+    for a poor structure."""
+    problem, beta = fit.problem, fit.point.beta
+    gains, width = len(problem.structure.gains), problem.degree + 1
+    moved = max(float(np.ptp(problem.y[problem.root_weight > 0])), 1e-300)
+    polynomials = beta[gains : gains + width * len(problem.records)].reshape(-1, width)
+    drifts = np.abs(polynomials[:, 1:]).max(initial=0.0)
+    starts = np.abs(beta[gains + width * len(problem.records) :]).max(initial=0.0)
+    return bool(fit.point.x[0] < 0.98 * problem.high[0] and max(drifts, starts) < moved)
 
 
 def _values(fit: Fit) -> Array:

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import ArrayLike
 
 from simc_core.simulation.collocation.elements import P
 
@@ -26,7 +27,7 @@ class Pieces:
     edges: np.ndarray
     coefficients: np.ndarray
 
-    def __call__(self, t, left=None) -> np.ndarray:
+    def __call__(self, t: ArrayLike, left: np.ndarray | None = None) -> np.ndarray:
         """Values at t (n,), shape (n, ...); zero before 0, the last value after the end.
 
         Right-hand limits at edges, left-hand ones where `left` (n,) says so. One matrix product for each run of

@@ -66,7 +66,9 @@ class ProcessMaps:
         return outputs, ends
 
 
-def _section(num: Row, den: Row, K: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int):
+def _section(
+    num: Row, den: Row, K: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int
+) -> tuple[np.ndarray, np.ndarray, int]:
     """One section: its output and the slope of it, and the next free state; the states at the end go into `ends`.
 
     The slope is right where the section is strictly proper.
