@@ -1,6 +1,7 @@
 """From an example to a model to its tuning, with the same numbers on both pages; by keyboard and on a phone too."""
 
 import re
+from urllib.parse import unquote_plus
 
 from playwright.sync_api import expect
 
@@ -23,7 +24,7 @@ def test_an_example_becomes_a_model_becomes_a_tuning(server, open_page):
     expect(page).to_have_url(re.compile("origin=FOPDT"))
     given = dict(part.split("=", 1) for part in page.url.split("?")[1].split("&"))
     number = r"\d+\.?\d*(?:e-?\d+)?"
-    found = [float(each) for each in re.findall(number, given["plant"].replace("%20", " "))]
+    found = [float(each) for each in re.findall(number, unquote_plus(given["plant"]))]
     for shown in (k, theta, tau1):
         assert min(abs(float(shown) / each - 1) for each in found if each) < 1e-3, (shown, given["plant"])
     expect(page.get_by_role("group", name="Settings")).to_contain_text("%/°C")
@@ -48,7 +49,6 @@ def test_a_file_is_uploaded_fitted_and_forgotten(server, open_page, tmp_path):
 def test_a_day_of_samples_is_drawn_with_few_points(server, open_page):
     page = open_page(f"{server}/from_data?example=day")
     page.locator(".st-key-figure_trend .js-plotly-plot .scatterlayer").first.wait_for()
-    points = page.evaluate(
-        "Math.max(...document.querySelector('.st-key-figure_trend .js-plotly-plot').calcdata.map(trace => trace.length))"
-    )
+    drawn = page.locator(".st-key-figure_trend .js-plotly-plot")
+    points = drawn.evaluate("figure => Math.max(...figure.calcdata.map(trace => trace.length))")
     assert 1000 < points <= 3000
