@@ -36,7 +36,13 @@ TINY = 1e-300
 
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """Unit step of the set point, and of the disturbance at the plant input."""
+    """What is measured on the steps of a single loop.
+
+    Attributes
+    ----------
+    setpoint, disturbance : StepMetrics
+        Unit step of the set point, and of the disturbance at the plant input.
+    """
 
     setpoint: StepMetrics
     disturbance: StepMetrics

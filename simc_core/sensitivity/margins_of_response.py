@@ -23,7 +23,23 @@ from simc_core.sensitivity.log_response import Ends, Response
 
 @dataclass(frozen=True, slots=True)
 class Margins:
-    """See the module docstring. omega in rad per time unit; stable: False means nan everywhere else."""
+    """Margins and peaks of a loop; the module docstring defines them. nan everywhere where the loop is not stable.
+
+    Attributes
+    ----------
+    GM, GM_lower : float
+        Factors on the gain at which the loop reaches its limit, > 1 and < 1; math.inf and 0.0 where there is none.
+    PM_deg : float
+        Phase margin, in degrees.
+    delay_margin : float
+        Additional dead time at which the loop reaches its limit, in the user's time unit.
+    Ms, Mt : float
+        Largest abs(1/(1 + L)) and abs(L/(1 + L)).
+    omega_180, omega_c, omega_Ms, omega_Mt : float
+        Where GM, PM_deg, Ms and Mt are, in rad per time unit.
+    stable : bool
+        Whether the loop is.
+    """
 
     GM: float
     GM_lower: float
@@ -56,6 +72,15 @@ def margins_of(response: Response) -> Margins:
     -------
     Margins
         As of `margins`.
+
+    Examples
+    --------
+    Of e^{-s}/(2 s), written as a product of factors:
+
+    >>> from simc_core import Loop, Plant, SeriesPid, margins_of
+    >>> from simc_core.sensitivity.log_response import FactoredResponse
+    >>> round(margins_of(FactoredResponse(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)).L)).GM, 6)
+    3.141593
     """
     return margins_from(response, search(response))
 

@@ -45,8 +45,14 @@ HIGHEST = 1e6  # a peak beyond counts as no loop
 class EqualRobustness:
     """A rule detuned, or sharpened, to max(Ms, Mt) = M.
 
-    controller: with the filter; None where M is not reachable, as is factor.   factor: F of the module docstring.
-    published_Ms: max(Ms, Mt) of the rule as printed, nan where that loop is not stable.
+    Attributes
+    ----------
+    controller : controller or None
+        With the filter; None where M is not reachable.
+    factor : float or None
+        F of the module docstring, 1 for the rule as published; None where M is not reachable.
+    published_Ms : float
+        max(Ms, Mt) of the rule as published, nan where that loop is not stable.
     """
 
     controller: Controller | None

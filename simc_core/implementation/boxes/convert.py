@@ -23,7 +23,7 @@ RATIOS = 1e-3, 1e6  # of N
 class Typed:
     """What is typed into a box, and what that makes.
 
-    Parameters
+    Attributes
     ----------
     values : mapping of str to float or str
         Numbers by the names of the box's fields; "structure" for its set-point structure, "PV filter" in seconds for a
@@ -145,6 +145,15 @@ def from_box(
     ------
     BoxError
         A field is missing, unknown, or beyond its range.
+
+    Examples
+    --------
+    A proportional band of 50 % and one minute per repeat are Kc = 2 and tau_I = 60 s:
+
+    >>> from simc_core import from_box
+    >>> pid = from_box("honeywell_udc", {"PB": 50.0, "RSET": 1.0})
+    >>> pid.Kc, pid.tau_I
+    (2.0, 60.0)
     """
     box, spans, seconds = _box(key), _spans(pv_span, out_span), _seconds(time_unit)
     if action not in ("reverse", "direct"):

@@ -30,7 +30,7 @@ from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.one_delay.closed_element import END, PARTS, ClosedElements, Z
 from simc_core.simulation.one_delay.element_sizes import levels
 from simc_core.simulation.one_delay.limits import (

@@ -17,7 +17,8 @@ import numpy as np
 
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import NestedLoops
-from simc_core.simulation.collocation.elements import NODES, P
+from simc_core.simulation.collocation.elements import NODES
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.several_delays.breakpoints import SMOOTH, Breakpoints
 from simc_core.simulation.several_delays.delay_maps import LEFT, DelayMap, delay_map
