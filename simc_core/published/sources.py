@@ -9,8 +9,12 @@ every key that is used has its entry, and every entry is used.
 SOURCES = {
     "AH04": "K. J. Astrom and T. Hagglund: Revisiting the Ziegler-Nichols step response method for PID control. "
     "Journal of Process Control 14 (2004) 635-650.",
+    "AH84": "K. J. Astrom and T. Hagglund: Automatic tuning of simple regulators with specifications on phase and "
+    "amplitude margins. Automatica 20 (1984) 645-651.",
     "AH95": "K. J. Astrom and T. Hagglund: PID Controllers: Theory, Design, and Tuning. 2nd edition, Instrument "
     "Society of America, 1995.",
+    "B17": "J. Berner: Automatic controller tuning using relay-based model identification. PhD thesis, Lund "
+    "University, 2017.",
     "CC53": "G. H. Cohen and G. A. Coon: Theoretical consideration of retarded control. Transactions of the ASME 75 "
     "(1953) 827-834.",
     "CHR52": "K. L. Chien, J. A. Hrones and J. B. Reswick: On the automatic control of generalized passive systems. "
@@ -50,6 +54,9 @@ SOURCES = {
     "Control 13 (2003) 291-309. https://doi.org/10.1016/S0959-1524(02)00062-8",
     "SK98": "S. Skogestad: Utledning av Skogestads PID-regler (Derivation of Skogestad's PID rules). Note in "
     "Norwegian, 20 August 1998.",
+    "SS10": "M. Shamsuzzoha and S. Skogestad: The setpoint overshoot method: A simple and fast closed-loop approach "
+    "for PID tuning. Journal of Process Control 20 (2010) 1220-1234.",
+    "T84": "Y. Z. Tsypkin: Relay Control Systems. Cambridge University Press, 1984.",
     "TL92": "B. D. Tyreus and W. L. Luyben: Tuning PI controllers for integrator/dead time processes. Industrial & "
     "Engineering Chemistry Research 31 (1992) 2625-2628.",
     "V06": "Viteckova: Jednoduche serizeni regulatoru metodou SIMC (Simple controller tuning by the SIMC method). In "

@@ -12,6 +12,7 @@ from simc_core.identification.judgement.covariance import covariance, degrees_of
 from simc_core.identification.judgement.noise import Noise, noise_of
 
 MARGIN = 2.0  # of the criterion, for each parameter of drift and start
+WORSE = 2.0  # times the deviation, at which what is not plausible is taken after all
 BEFORE = 4  # samples before the first move from which an unsettled start can be told
 
 
@@ -77,8 +78,9 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
 
 def _weighed(fits: dict[tuple[bool, bool], Fit], floor: float, step: float) -> Estimate:
     sound = {key: fit for key, fit in fits.items() if fit.problem.structure.integrating or _plausible(fit)}
-    fits = sound or fits
     noises = {key: noise_of(fit) for key, fit in fits.items()}
+    if sound and min(noises[key].sigma for key in sound) <= WORSE * min(noise.sigma for noise in noises.values()):
+        fits, noises = sound, {key: noises[key] for key in sound}
     closest = min(noises.values(), key=lambda noise: noise.sigma)
     effective = max(closest.effective, 4.0)
     loss = {key: 2 * effective * np.log(max(noises[key].sigma, floor)) for key in fits}
