@@ -6,6 +6,7 @@ from simc_core.certificate.verdict import NestedStability, Stability, count_unst
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import (
     BoxError,
+    DataError,
     FormError,
     InvalidParameter,
     NoOptimum,
@@ -21,10 +22,12 @@ from simc_core.errors import (
 from simc_core.identification.experiments.relay import Relay, relay_from_trend, relay_test
 from simc_core.identification.experiments.retune_oscillation import retune_oscillation
 from simc_core.identification.experiments.setpoint_overshoot import setpoint_overshoot
+from simc_core.identification.graphical import ByHand, by_hand
 from simc_core.identification.identified import Identified
 from simc_core.identification.identify import identify
 from simc_core.identification.moves import find_moves
 from simc_core.identification.rank import identify_all
+from simc_core.identification.reading.reader import read_trend
 from simc_core.identification.robust_tau_c import ms_of_cloud, robust_tau_c
 from simc_core.identification.trend import Trend
 from simc_core.implementation.boxes.box import Box

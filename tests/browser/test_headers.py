@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 from tests.browser.tools import Server, idle
 
-PAGES = ("", "plant", "half_rule", "tuning", "cascade", "accuracy")
+PAGES = ("", "plant", "from_data", "half_rule", "tuning", "cascade", "accuracy")
 VIOLATIONS = """document.addEventListener('securitypolicyviolation', event => {
     console.error('forbidden by the policy: ' + event.violatedDirective + ' ' + event.blockedURI);
 });"""
