@@ -6,9 +6,11 @@ from simc_core.certificate.verdict import NestedStability, Stability, count_unst
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import (
     BoxError,
+    DataError,
     FormError,
     InvalidParameter,
     NoOptimum,
+    NotIdentifiable,
     NotReducible,
     NotStable,
     OutOfDomain,
@@ -17,6 +19,17 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.identification.experiments.relay import Relay, relay_from_trend, relay_test
+from simc_core.identification.experiments.retune_oscillation import retune_oscillation
+from simc_core.identification.experiments.setpoint_overshoot import setpoint_overshoot
+from simc_core.identification.graphical import ByHand, by_hand
+from simc_core.identification.identified import Identified
+from simc_core.identification.identify import identify
+from simc_core.identification.moves import find_moves
+from simc_core.identification.rank import identify_all
+from simc_core.identification.reading.reader import read_trend
+from simc_core.identification.robust_tau_c import ms_of_cloud, robust_tau_c
+from simc_core.identification.trend import Trend
 from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.convert import Typed, from_box, to_box
