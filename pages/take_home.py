@@ -1,12 +1,36 @@
-"""The settings as they are typed into the controller at home, and proof that it behaves as designed."""
+"""The settings as they are typed or compiled into the controller at home, and proof that it behaves as designed."""
 
 import streamlit as st
 
 from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
+from pages.common.session.design import Design
 from pages.common.shell import header
-from pages.common.studies.single import present_study
+from pages.common.studies.single import Study, present_study
 from pages.common.take_home import view as take_home
+from pages.common.take_home.code import code
+from pages.common.take_home.way_out import way_out
+from simc_core.errors import FormError
+
+VIEWS = ("Settings", "Code")
+
+
+def in_the_box(design: Design, present: Study) -> None:
+    """What is typed, the proof, what to mind; or what can be done where the box has no such form."""
+    if not design.box:
+        st.info(
+            "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
+            "numbers are another controller in another box."
+        )
+        return
+    try:
+        found = take_home.numbers(design, present)
+    except FormError as error:
+        way_out(design, present, error)
+        return
+    take_home.proof(design, present, found)
+    take_home.notes(design, found)
+
 
 design = header.show("take_home")
 with explain_refusal():
@@ -19,13 +43,7 @@ with explain_refusal():
         if design.box:
             take_home.in_the_box_now(design)
     with shown:
-        if design.box:
-            with explain_refusal():
-                found = take_home.numbers(design, present)
-                take_home.proof(design, present, found)
-                take_home.notes(design, found)
-        else:
-            st.info(
-                "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
-                "numbers are another controller in another box."
-            )
+        for view, show in zip(st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code), strict=True):
+            if view.open:
+                with view, explain_refusal():
+                    show(design, present)
