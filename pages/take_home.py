@@ -9,8 +9,9 @@ from pages.common.shell import header
 from pages.common.studies.single import Study, present_study
 from pages.common.take_home import view as take_home
 from pages.common.take_home.code import code
+from pages.common.take_home.report_view import report_view
 
-VIEWS = ("Settings", "Code")
+VIEWS = ("Settings", "Code", "Report")
 
 
 def in_the_box(design: Design, present: Study) -> None:
@@ -37,7 +38,9 @@ with explain_refusal():
         if design.box:
             take_home.in_the_box_now(design)
     with shown:
-        for view, show in zip(st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code), strict=True):
+        for view, show in zip(
+            st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code, report_view), strict=True
+        ):
             if view.open:
                 with view, explain_refusal():
                     show(design, present)
