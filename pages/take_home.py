@@ -10,6 +10,7 @@ from pages.common.studies.single import Study, present_study
 from pages.common.take_home import view as take_home
 from pages.common.take_home.code import code
 from pages.common.take_home.report_view import report_view
+from simc_core import BoxError
 
 VIEWS = ("Settings", "Code", "Report")
 
@@ -22,7 +23,11 @@ def in_the_box(design: Design, present: Study) -> None:
             "numbers are another controller in another box."
         )
         return
-    found = take_home.numbers(design, present)
+    try:
+        found = take_home.numbers(design, present)
+    except BoxError as error:
+        take_home.refused(design, present, error)
+        return
     take_home.proof(design, present, found)
     take_home.notes(design, found)
 

@@ -27,7 +27,8 @@ class Step:
 class BudgetEntry:
     """What became of one lag, zero or delay of the plant.
 
-    label: e.g. "lag 6".   kind: "lag", "pair", "lead", "inverse", "dead time", "sampling", "integrator", "unstable".
+    label: e.g. "lag 6".   kind: "lag", "pair", "lead", "inverse", "dead time", "sampling", "filter",
+    "integrator", "unstable".
     amount: its time; math.inf for an integrator.
     parts: (where, time). Kept in the model: "tau1", "tau2", "tau0", "theta", "slope" (an integrator), "a" (an unstable
     pole). Gone: by the rule "T1", "T1a", "T1b", "T2", "T3", "1998 small", "1998 large", "1998 cancel", by exact

@@ -1,9 +1,11 @@
 """A Design as query parameters and back. Pure: no streamlit, so that it can be tested alone.
 
-    plant, order, h, tau_c, b, filter, rules, speed, form   the design itself; from h on only where not the default
+    plant, order, h, tau_c, b, filter, rules, speed, tau_F, form
+                                                     the design itself; from h on only where not the default
     facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
-    pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
+    pins                                             order~h~tau_c~b~filter~rules~speed~tau_F, or settings;
+                                                     separated by !
     box, rounding, language, exported                what the settings are typed into, or written as
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
@@ -217,7 +219,7 @@ def _pin(text: str) -> Tuning | Controller:
     values = text.split("~")
     if values[0] in FORM_NAMES:
         return settings_of(text)
-    if len(values) not in (len(TUNING_FIELDS), len(TUNING_FIELDS) - 1):  # links of before have no speed
+    if not 0 <= len(TUNING_FIELDS) - len(values) <= 2:  # links of before have no speed or no tau_F
         raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, got {len(values)}")
     given = dict(zip(TUNING_FIELDS, values, strict=False))
     return Tuning(**{name: _read(name, value) for name, value in given.items() if value})

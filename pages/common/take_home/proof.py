@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 
 from pages.common.parts.units import with_plain_unit
 from pages.common.session.design import Design
-from simc_core import Loop, sampled_margins
-from simc_core.notation import number
+from simc_core import Loop, longest_sampling_period, sampled_margins
+from simc_core.errors import SimcError
+from simc_core.notation import number, rounded_down
 from simc_core.sensitivity.margins_of_response import Margins
 
 ROWS = {  # of Margins: label; delay_margin in the time unit
@@ -23,6 +25,16 @@ def sampled(loop: Loop, design: Design) -> tuple[str, Margins]:
     h = design.actuator.h
     title = f"sampled every {number(h)} {design.sheet.time_unit}".rstrip()
     return title, sampled_margins(loop, h, design.actuator.law)
+
+
+@lru_cache(maxsize=16)  # a fifth of a second, asked for by warnings, remedies and reports
+def longest_period(loop: Loop, law: str) -> float:
+    """The sampling period that costs 5 % of Ms, rounded down; infinite where none does, nan where there is none."""
+    try:
+        longest = longest_sampling_period(loop, law)
+    except SimcError:
+        return math.nan
+    return rounded_down(longest) if math.isfinite(longest) else longest
 
 
 def table(columns: Mapping[str, Margins], time_unit: str) -> list[dict[str, str]]:

@@ -57,6 +57,7 @@ def to_box(
     time_unit: str = "s",
     N: float | None = None,
     rounded: bool = False,
+    nearest: bool = False,
 ) -> Typed:
     """The numbers that are typed into a box for a controller.
 
@@ -74,6 +75,8 @@ def to_box(
         Ratio Td/Tf, where the box lets one choose it. None: as the design's tau_F needs it, else the box's own choice.
     rounded : bool
         To what can be typed, on the safe side: gain down, integral time up, derivative time to the nearest.
+    nearest : bool
+        A number beyond the range of the box becomes the nearest within it, with a warning, rather than a BoxError.
 
     Returns
     -------
@@ -106,7 +109,7 @@ def to_box(
     N = None if N is None else checks.real("N", N, *RATIOS)
     law, pv_filter, warnings = _LAWS[box.form].forward(positive, box, N)
     action = "reverse" if sign > 0 else "direct"
-    values = _numbers(box, law, spans, rounded)
+    values = _numbers(box, law, spans, rounded, warnings if nearest else None)
     if box.sign * sign < 0:
         values = {name: _with_sign(box, name, value) for name, value in values.items()}
     values, more = _with_structure(box, values, law)
@@ -321,24 +324,34 @@ _LAWS = {
 }
 
 
-def _numbers(box: Box, law: Quantities, spans: Spans, round_off: bool) -> dict[str, float | str]:
-    """Typed numbers of the fields. The gain first: gains of I and D are for the gain that is typed."""
+def _numbers(box: Box, law: Quantities, spans: Spans, round_off: bool, put: list[str] | None) -> dict[str, float | str]:
+    """Typed numbers of the fields. The gain first: gains of I and D are for the gain that is typed.
+
+    put: warnings about what was put to the nearest number; None where such a number is refused.
+    """
     values: dict[str, float | str] = {}
     for field in box.fields:
         name = law_quantity(field)
         if name in ("b", "c"):
             continue
         number = field.off if law[name] == _off(field) and field.off is not None else typed(field, law[name], spans)
-        if round_off and number != field.off:
-            number = _nearest_off(field, on_the_safe_side(field, number))
-            if name == "gain" and law[name] and not number:
-                raise BoxError(
-                    f"{field.name} of {box.title} must be >= {field.step:g}, got {typed(field, law[name], spans):g}",
-                    field.name,
-                    0.0,
-                    field.step,
-                )
-        _check(box, field, number)
+        exact = number
+        try:
+            if round_off and number != field.off:
+                number = _nearest_off(field, on_the_safe_side(field, number))
+                if name == "gain" and law[name] and not number:
+                    raise BoxError(
+                        f"{field.name} of {box.title} must be >= {field.step:g}, got {exact:g}",
+                        field.name,
+                        0.0,
+                        field.step,
+                    )
+            _check(box, field, number)
+        except BoxError as error:
+            if put is None or math.isnan(error.nearest):
+                raise
+            number = error.nearest
+            put.append(f"{field.name} = {exact:g} is beyond the range of the box: {number:g} is the nearest")
         if name == "gain" and law[name]:
             change = read(field, number, spans) / law[name]
             law = law | {gain: law[gain] * change for gain in ("gain", "Ki", "Kd") if gain in law}

@@ -6,15 +6,16 @@ from datetime import date
 from typing import NamedTuple
 
 from pages.common.parts.settings_text import as_text
+from pages.common.parts.units import time_text
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, attempt, study_of_settings
-from pages.common.take_home.proof import sampled
+from pages.common.take_home.proof import longest_period, sampled
 from pages.common.take_home.typed import SPAN, assumed, rows, typed_into
-from simc_core import BOXES, Typed, longest_sampling_period, simulate
+from simc_core import BOXES, Typed, simulate
 from simc_core.errors import SimcError
 from simc_core.implementation.single_precision import dead_error
-from simc_core.notation import number, plain, rounded_down
+from simc_core.notation import number, plain
 from simc_core.plants.step_facts import SlopeFacts, StepFacts
 from simc_core.published.sources import SOURCES
 from simc_core.sensitivity.margins_of_response import Margins
@@ -190,13 +191,11 @@ def _asked(design: Design) -> str:
 
 def _on_sampling(final: Study, design: Design) -> list[str]:
     """Where h is too long, and what an integral in 32 bits does not see."""
-    found, h, unit = [], design.actuator.h, design.sheet.time_unit
-    if final.stable:
-        longest = longest_sampling_period(final.loop, design.actuator.law)
-        if h > longest:
-            period = f"{number(rounded_down(longest))} {unit}".rstrip()
-            found.append(f"Sampling is slow for this loop: with {period} or less Ms rises by 5 % at most.")
-    sheet = design.sheet
+    found, h = [], design.actuator.h
+    longest, sheet = longest_period(final.loop, design.actuator.law), design.sheet
+    if h > longest:
+        period = time_text(longest, sheet)
+        found.append(f"Sampling is slow for this loop: with {period} or less Ms rises by 5 % at most.")
     spans = [(sheet.PV_low, sheet.PV_high), (sheet.OP_low, sheet.OP_high)]
     PV, OP = ((0.0, SPAN) if None in ends else ends for ends in spans)
     blind = dead_error(max(map(abs, OP)), final.controller.to_parallel().Ki, h)
