@@ -10,9 +10,10 @@ from pages.common.studies.single import Study, present_study
 from pages.common.take_home import view as take_home
 from pages.common.take_home.code import code
 from pages.common.take_home.report_view import report_view
+from pages.common.take_home.schedule import schedule
 from simc_core import BoxError
 
-VIEWS = ("Settings", "Code", "Report")
+VIEWS = ("Settings", "Code", "Schedule", "Report")
 
 
 def in_the_box(design: Design, present: Study) -> None:
@@ -44,7 +45,7 @@ with explain_refusal():
             take_home.in_the_box_now(design)
     with shown:
         for view, show in zip(
-            st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code, report_view), strict=True
+            st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code, schedule, report_view), strict=True
         ):
             if view.open:
                 with view, explain_refusal():

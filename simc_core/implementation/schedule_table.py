@@ -21,7 +21,6 @@ from simc_core.loops.loop import Loop
 from simc_core.sensitivity.margins import margins_many
 
 MOST_PARTS = 20
-MOST_ROWS = 200
 PARTS = 5  # between two rows, where the model is interpolated
 
 
@@ -39,7 +38,7 @@ class ScheduleTable:
     Raises
     ------
     InvalidParameter
-        The settings of a row have no ideal form with integral action, or there are too many rows.
+        The settings of a row have no ideal form with integral action.
 
     Examples
     --------
@@ -53,19 +52,17 @@ class ScheduleTable:
     schedule: GainSchedule
     parts: int | None = None
 
-    def __post_init__(self):
-        usual = 1 if self.schedule.between == "PB" else PARTS
-        parts = usual if self.parts is None else checks.whole("parts", self.parts, 1, MOST_PARTS)
-        if parts * len(self.schedule.values) > MOST_ROWS:
-            parts = max(MOST_ROWS // len(self.schedule.values), 1)
-        object.__setattr__(self, "parts", parts)
+    def __post_init__(self) -> None:
+        if self.parts is not None:
+            checks.whole("parts", self.parts, 1, MOST_PARTS)
         _ = self._rows  # which has bounds of its own
 
     @cached_property
     def x(self) -> tuple[float, ...]:
         """Scheduling values of the rows."""
         values = self.schedule.values
-        inside = [low + (high - low) * i / self.parts for low, high in pairwise(values) for i in range(self.parts)]
+        parts = self.parts or (1 if self.schedule.between == "PB" else PARTS)
+        inside = [low + (high - low) * i / parts for low, high in pairwise(values) for i in range(parts)]
         return (*inside, values[-1])
 
     @property

@@ -106,6 +106,11 @@ homes = st.builds(
     rounding=st.sampled_from(ROUNDINGS),
     language=st.sampled_from(sorted(LANGUAGES)),
     exported=st.sampled_from(EXPORTED),
+    between=st.sampled_from(["model", "PB"]),
+    points=st.just(())
+    | st.lists(st.tuples(gains, times, times), min_size=2, max_size=5).map(
+        lambda rows: tuple((float(x), *row) for x, row in enumerate(rows))
+    ),
 )
 designs = st.builds(
     Design,

@@ -251,7 +251,7 @@ PLACES: dict[str, tuple[str, str]] = {
     "b_outer": ("cascade", "b"),
     "filter_outer": ("cascade", "filter_outer"),
     **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
-    **{name: ("home", name) for name in ("rounding", "language", "exported")},
+    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between")},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
     "d_time": ("excitation", "load_time"),
@@ -313,6 +313,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
         pins=tuple(_in_time(pin, time) if isinstance(pin, Tuning) else pin.rescaled(time) for pin in design.pins),
         actuator=_in_time(design.actuator, time),
         excitation=_in_time(design.excitation, time),
+        home=design.home.in_time(time),
         cascade=replace(
             _in_time(design.cascade, time),
             primary=primary,

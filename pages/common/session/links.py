@@ -7,6 +7,7 @@
     pins                                             order~h~tau_c~b~filter~rules~speed~tau_F, or settings;
                                                      separated by !
     box, rounding, language, exported                what the settings are typed into, or written as
+    points, between                                  value~k~theta~tau1~tau2 of a gain schedule, separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
     u_min, u_max, T_t, noise, seed, sampling, law    the loop as built, only where it is not the default
@@ -37,7 +38,7 @@ TEXTS = (
     *("rules", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
     *("method", "inner", "outer", "filter_outer", "law"),
-    *("rounding", "language", "exported"),
+    *("rounding", "language", "exported", "between"),
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")
@@ -124,6 +125,8 @@ def _text(name: str, value) -> str:
         return value
     if name == "pins":
         return "!".join(map(_pin_text, value))
+    if name == "points":
+        return "!".join("~".join(map(number_text, point)) for point in value)
     if name in SETTINGS:
         return settings_text(value)
     if name in FACTS:
@@ -138,6 +141,8 @@ def _read(name: str, text: str):
         return _plant(text)
     if name == "pins":
         return tuple(map(_pin, text.split("!")))
+    if name == "points":
+        return tuple(tuple(_read("a number", number) for number in point.split("~")) for point in text.split("!"))
     if name in SETTINGS:
         return settings_of(text)
     if name in FACTS:
