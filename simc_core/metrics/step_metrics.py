@@ -24,7 +24,7 @@ LEVELS = np.array(  # the end, 10 % and 90 %, the band of 2 %; of a load step in
     [[1.0, 0.1, 0.9, 0.98, 1.02], [0.0, np.nan, np.nan, -0.02, 0.02]]
 )[:, :, None]
 LEAST_OVERSHOOT = 1e-10  # less than that is rounding
-FLAT = 1e-13  # relative; y this near its peak is there: of a flat top the first instant counts
+AT_PEAK = 1e-13  # relative; y this near its peak is there: of a flat top the first instant counts
 TINY = 1e-300
 
 
@@ -173,7 +173,7 @@ def _extremes(
     np.maximum.at(high, owner, values)
     np.minimum.at(low, owner, values)
     peak = np.where(step | (high >= -low), high, low)
-    at_peak = np.abs(values - peak[owner]) <= FLAT * np.abs(peak[owner])
+    at_peak = np.abs(values - peak[owner]) <= AT_PEAK * np.abs(peak[owner])
     np.minimum.at(time, owner[at_peak], times[at_peak])
     beyond = np.where(step, peak - 1, np.where(peak > 0, -low, high) / np.maximum(np.abs(peak), TINY))
     passed = beyond > LEAST_OVERSHOOT
