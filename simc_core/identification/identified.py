@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 class Identified:
     """A model fitted to a trend.
 
-    Parameters
+    Attributes
     ----------
     structure : str
         Its key, see `identify`.
