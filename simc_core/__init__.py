@@ -34,8 +34,10 @@ from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.convert import Typed, from_box, to_box
 from simc_core.implementation.exports.export import export
+from simc_core.implementation.exports.schedule import export_schedule
 from simc_core.implementation.gain_schedule import GainSchedule
 from simc_core.implementation.sampled_margins import longest_sampling_period, sampled_margins
+from simc_core.implementation.schedule_table import ScheduleTable
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
