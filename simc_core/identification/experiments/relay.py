@@ -62,7 +62,7 @@ def relay_test(plant: Plant, amplitude: float, hysteresis: float = 0.0, bias: fl
     hysteresis : float
         The relay switches where y passes +hysteresis upwards and -hysteresis downwards, >= 0.
     bias : float
-        |bias| < amplitude: unequal levels show the gain, k = mean(y)/mean(u) over a period.
+        abs(bias) < amplitude: unequal levels show the gain, k = mean(y)/mean(u) over a period.
 
     Returns
     -------
