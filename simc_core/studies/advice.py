@@ -27,7 +27,7 @@ from simc_core.reduction.explanation import of_orders
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.bands import exceeds
-from simc_core.studies.remedies import TIGHT, calmer, filter_that_costs_little
+from simc_core.studies.remedies import calmer, filter_that_costs_little, tight
 from simc_core.studies.tuned import Tuned
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
@@ -102,18 +102,19 @@ def large_Ms(of: Tuned) -> Advice | None:
 
 
 def faster_than_dead_time(of: Tuned) -> Advice | None:
-    """tau_c < theta, where it costs robustness."""
-    theta, tau_c = of.model.theta, of.tau_c
-    if tau_c >= theta * (1 - LIMIT_ROUNDING) or not of.margins.stable:
+    """tau_c shorter than the rule has it, where that costs robustness."""
+    usual, tau_c, change = of.usual_tau_c, of.tau_c, tight(of)
+    if not of.model.theta or tau_c >= usual * (1 - LIMIT_ROUNDING) or not of.margins.stable:
         return None
-    tight = of.at(theta)
-    if not tight.margins.Ms < of.margins.Ms:
+    calm = of.at(usual).margins.Ms
+    if not calm < of.margins.Ms:
         return None
+    name = "theta/2" if of.rule == "isimc" else "theta"
     text = (
-        f"This is faster than the tight setting tau_c = theta. Ms is {number(of.margins.Ms, 3)}, "
-        f"with tau_c = theta it is {number(tight.margins.Ms, 3)}."
+        f"This is faster than the tight setting tau_c = {name}. Ms is {number(of.margins.Ms, 3)}, "
+        f"with tau_c = {name} it is {number(calm, 3)}."
     )
-    return Advice("note", "tau_c", text, tau_c, theta, True, "Take tau_c = theta.", TIGHT)
+    return Advice("note", "tau_c", text, tau_c, usual, True, f"Take tau_c = {name}.", change)
 
 
 def slower_than_plant(of: Tuned) -> Advice | None:
@@ -179,7 +180,7 @@ def oscillating_plant(of: Tuned) -> Advice | None:
 def order_two(of: Tuned) -> Advice | None:
     """Whether derivative action pays, by the load errors at equal Ms."""
     orders = of.reduction.orders
-    if orders is None or math.isnan(orders.ratio):
+    if orders is None or math.isnan(orders.ratio) or of.rule != "simc":
         return None
     derivative = delivered(of.controller) == "PID"
     if orders.second_pays and of.order == 1:
@@ -192,7 +193,7 @@ def order_two(of: Tuned) -> Advice | None:
 def other_than_chosen(of: Tuned) -> Advice | None:
     """PI chosen and PID delivered, or the reverse."""
     chosen, got = ("PI", "PID")[of.order - 1], delivered(of.controller)
-    if chosen == got:
+    if chosen == got or of.rule != "simc":
         return None
     quantity = f"{chosen} chosen, {got} delivered"
     if got == "I":

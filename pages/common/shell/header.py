@@ -19,7 +19,7 @@ from simc_core.plants.plant import Plant
 GROUPS = {
     "Start": {"home": "Home"},
     "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
-    "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
+    "Tune": {"tuning": "Tuning", "rules": "Rules", "cascade": "Cascade"},
     "Use": {"take_home": "Take home"},
     "Learn": {"accuracy": "Accuracy"},
 }
