@@ -29,9 +29,20 @@ AT_NODES = chebyshev.chebvander(NODES, COEFFICIENTS - 1).T
 class StepQuality:
     """For a unit step. Times in the user's unit, from the step on.
 
-    ITSE: output units squared and time squared.   settling_1, settling_5: as settling_time.   arrival: of a set-point
-    step, nan where y never passes its end, and of a load step.   decay_ratio: nan without overshoot, 0 where there is
-    no second peak.   period: from the first peak to the second, nan where there is none.   largest_u: input units.
+    Attributes
+    ----------
+    ITSE : float
+        Integral of t e^2, in output units squared times time squared.
+    settling_1, settling_5 : float
+        Time until y stays within 1 %, 5 % of a set-point step, of the peak after a load step.
+    arrival : float
+        First time y is at the end value of a set-point step; nan where it never passes it, and for a load step.
+    decay_ratio : float
+        Second over first peak beyond the end value; nan without a first, 0 without a second.
+    period : float
+        From the first of these peaks to the second, nan where there is none.
+    largest_u : float
+        Largest abs(u), jumps included, in input units.
     """
 
     ITSE: float
@@ -45,7 +56,15 @@ class StepQuality:
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """Unit step of the set point, and of the disturbance at the plant input."""
+    """What `step_quality` gives.
+
+    Attributes
+    ----------
+    setpoint : StepQuality
+        Unit step of the set point.
+    disturbance : StepQuality
+        Unit step of the disturbance at the plant input.
+    """
 
     setpoint: StepQuality
     disturbance: StepQuality

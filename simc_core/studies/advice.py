@@ -34,7 +34,7 @@ GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
 SLOW_INTEGRATING = 8.0  # tau_c/theta of the "moderate" choice [V06 eq. 7]; an integrating plant has no time of its own
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4
-ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
+LIMIT_ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
 LEVELS = ("error", "warning", "note")
 BY_MODEL = {
     DoubleIntegratingDelay: "Two integrators need derivative action: the rule for this plant is a PID.",
@@ -104,7 +104,7 @@ def large_Ms(of: Tuned) -> Advice | None:
 def faster_than_dead_time(of: Tuned) -> Advice | None:
     """tau_c shorter than the rule has it, where that costs robustness."""
     usual, tau_c, change = of.usual_tau_c, of.tau_c, tight(of)
-    if not of.model.theta or tau_c >= usual * (1 - ROUNDING) or not of.margins.stable:
+    if not of.model.theta or tau_c >= usual * (1 - LIMIT_ROUNDING) or not of.margins.stable:
         return None
     calm = of.at(usual).margins.Ms
     if not calm < of.margins.Ms:
@@ -122,7 +122,7 @@ def slower_than_plant(of: Tuned) -> Advice | None:
     if isinstance(of.model, UnstableDelay):
         return None
     limit = slowest_useful(of.plant, of.model)
-    if not of.tau_c > limit * (1 + ROUNDING):
+    if not of.tau_c > limit * (1 + LIMIT_ROUNDING):
         return None
     if of.plant.integrators:
         worse = load_error(of.controller) / load_error(of.at(of.model.theta).controller)
@@ -252,7 +252,7 @@ def slow_oscillation(model: Model, controller: Controller) -> Advice | None:
     if series.tau_I >= tau1 or series.tau_I == math.inf:
         return None
     product = series.Kc * slope * series.tau_I
-    if product >= SLOW_LIMIT * (1 - ROUNDING) or product < 0:
+    if product >= SLOW_LIMIT * (1 - LIMIT_ROUNDING) or product < 0:
         return None
     Kc = SLOW_LIMIT / (slope * series.tau_I)
     text = "The gain is too low for so short an integral time: slow oscillation."

@@ -88,6 +88,15 @@ def comparison(
     ------
     InvalidParameter
         A number out of its bounds, or no such rule.
+
+    Examples
+    --------
+    SIMC as published has the load error tau_I/Kc = 8/4 on a first-order plant [SK03]; Ziegler and Nichols' is sharper:
+
+    >>> from simc_core import Plant, comparison
+    >>> rows = comparison(Plant(1, 1, (8,)), ["PI"], keys=["simc", "zn_step"])
+    >>> [(row.key, round(row.load, 3), round(row.Mst, 2)) for row in rows]
+    [('simc', 2.0, 1.59), ('zn_step', 0.498, 3.27)]
     """
     M = None if Ms is None else peak_bound("Ms", Ms)
     for key in keys:

@@ -76,6 +76,7 @@ def tuned(
     filter: float = 0.0,
     rules: str = "2003",
     speed: str = "",
+    tau_F: float = 0.0,
     rule: str = "simc",
 ) -> Tuned:
     """Reduce, tune, close the loop, judge it.
@@ -84,7 +85,7 @@ def tuned(
     ----------
     plant : Plant
         The full plant.
-    order, h, rules
+    order, h, rules, tau_F
         Of the reduction, as in `half_rule`.
     tau_c : float, optional
         Closed-loop time constant; None for `speed`. The rule of an unstable pole knows theta alone.
@@ -105,8 +106,9 @@ def tuned(
         Where there is no model, or a number is out of bounds.
     """
     choices = {"order": order, "h": h, "tau_c": tau_c, "b": b, "filter": filter, "rules": rules, "speed": speed}
+    choices["tau_F"] = tau_F
     choices["rule"] = rule
-    reduction = _reduced(plant, order if rule == "simc" else 1, h, rules)
+    reduction = _reduced(plant, order if rule == "simc" else 1, h, rules, tau_F)
     try:
         return _closed(plant, choices, reduction)
     except OutOfDomain as error:
@@ -157,5 +159,5 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
 
 
 @lru_cache(maxsize=16)  # 2 s for a plant of forty poles, and every remedy that is tried asks for the same
-def _reduced(plant: Plant, order: int, h: float, rules: str) -> Reduction:
-    return half_rule(plant, order, h, rules)
+def _reduced(plant: Plant, order: int, h: float, rules: str, tau_F: float) -> Reduction:
+    return half_rule(plant, order, h, rules, tau_F)
