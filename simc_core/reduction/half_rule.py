@@ -21,6 +21,7 @@ import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache, partial
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
@@ -32,7 +33,7 @@ from simc_core.reduction.equal_peak import at_equal_peak, compare_orders
 from simc_core.reduction.explanation import budget, notes, steps
 from simc_core.reduction.records import LARGEST_MS, Candidate, Reduction
 from simc_core.reduction.split import TrialReduction, delay_of, model_of, resolved, shape_of
-from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, remove_leads
+from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, Removal, remove_leads
 from simc_core.reduction.zeros_1998 import remove_leads_1998
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
@@ -41,6 +42,8 @@ RULES = ("2003", "1998")
 MOST_PROBES = 400  # of theta; median 18 for two zeros, 100 for six, 240 for a dozen. Beyond this some may be missed
 INSIDE = 0.414  # where an interval is probed; not the middle, where symmetric plants have their changes
 SAME = 1e-9  # relative; two delays this close are one
+_Reduced = tuple[tuple[Candidate, ...], TrialReduction]
+_Removed = Callable[[float], tuple[Removal, tuple[float, ...]]]
 
 
 def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003") -> Reduction:
@@ -90,12 +93,14 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     if rules not in RULES:
         raise InvalidParameter(f'rules must be "2003" or "1998", got {rules!r}')
     parts = dynamics(plant)
-    candidates, trial = _reduce(plant, parts, order, h, rules)
+    removed = lru_cache(maxsize=None)(partial(_removed, parts))
+    reduce = partial(_reduce, plant, parts, removed, h, rules)
+    candidates, trial = reduce(order)
     chosen = next(candidate for candidate in candidates if candidate.chosen)
-    other = chosen.model if order == 2 else _chosen(plant, parts, 2, h, rules)
+    other = chosen.model if order == 2 else _chosen(reduce(2))
     orders = None
     if isinstance(other, SecondOrderDelay | IntegratingDelay):
-        first = chosen.model if order == 1 else _chosen(plant, parts, 1, h, rules)
+        first = chosen.model if order == 1 else _chosen(reduce(1))
         orders = compare_orders(plant, first, other)
     return Reduction(
         chosen.model,
@@ -108,19 +113,16 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     )
 
 
-def _chosen(plant: Plant, parts: Dynamics, order: int, h: float, rules: str) -> Model:
-    candidates, _ = _reduce(plant, parts, order, h, rules)
-    return next(candidate.model for candidate in candidates if candidate.chosen)
+def _chosen(reduced: _Reduced) -> Model:
+    return next(candidate.model for candidate in reduced[0] if candidate.chosen)
 
 
-def _reduce(
-    plant: Plant, parts: Dynamics, order: int, h: float, rules: str
-) -> tuple[tuple[Candidate, ...], TrialReduction]:
+def _reduce(plant: Plant, parts: Dynamics, removed: _Removed, h: float, rules: str, order: int) -> _Reduced:
     """All candidates, smallest delay first, one of them chosen, and how that one came about."""
     if rules == "1998":
         found = [_at_1998(parts, order, h)]
     else:
-        found = _self_consistent(lambda theta: _at(parts, order, h, theta), _longest_delay(parts, h))
+        found = _self_consistent(lambda theta: _at(parts, removed, order, h, theta), _longest_delay(parts, h))
     models = [model_of(parts, trial) for trial in found]
     candidates = _choose(plant, models)
     chosen = next(i for i, candidate in enumerate(candidates) if candidate.chosen)
@@ -131,13 +133,19 @@ def _longest_delay(parts: Dynamics, h: float) -> float:
     return parts.theta + sum(parts.lags) + sum(parts.inverse) + h / 2
 
 
-def _at(parts: Dynamics, order: int, h: float, theta: float) -> TrialReduction:
-    """The rules of 2003 with `theta` assumed; the line `theta` of the outcome is what comes out."""
+def _removed(parts: Dynamics, theta: float) -> tuple[Removal, tuple[float, ...]]:
+    """The rules of 2003 for zeros with `theta` assumed, for either order; and the theta at which they change."""
     comparisons = Comparisons(theta)
     lags = [Lag(i, LineInTheta(tau)) for i, tau in enumerate(parts.lags)]
     removal = remove_leads(list(enumerate(parts.leads)), lags, parts.integrators, comparisons)
+    return removal, tuple(set(comparisons.turning_points))
+
+
+def _at(parts: Dynamics, removed: _Removed, order: int, h: float, theta: float) -> TrialReduction:
+    """The rules of 2003 with `theta` assumed; the line `theta` of the outcome is what comes out."""
+    removal, turning_points = removed(theta)
     shape = shape_of(parts, order, removal.integrators)
-    return TrialReduction(removal, shape, delay_of(parts, removal.lags, shape, h), tuple(comparisons.turning_points))
+    return TrialReduction(removal, shape, delay_of(parts, removal.lags, shape, h), turning_points)
 
 
 def _at_1998(parts: Dynamics, order: int, h: float) -> TrialReduction:
