@@ -54,6 +54,8 @@ PROVOKED = [
     (guards.other_than_chosen, RINGING, {}),
     (guards.other_than_chosen, Plant(1, 1, integrators=2), {}),
     (guards.other_than_chosen, FOPDT, {"order": 2}),
+    (guards.set_point_overshoot, Plant(0.05, 2, integrators=1), {}),
+    (guards.set_point_overshoot, Plant(1, 1, (3,), integrators=1), {"order": 2}),
 ]
 
 
@@ -266,7 +268,24 @@ def _rings(design, item):
     assert abs(design.controller.setpoint_response(pole)) > 1e6 * abs(design.controller.response(pole))
 
 
+def _overshoots(design, item):
+    """Peaks of y on a fine grid; with b = 1 the error of a loop with two integrators has no area: y must overshoot."""
+
+    def beyond(of):
+        return 100 * (float(np.max(simulate(of.loop, Scenario(disturbance=0.0)).y)) - 1)
+
+    assert beyond(design) == pytest.approx(item.value, abs=0.1)
+    changed = design.changed(**item.change)
+    told = float(item.remedy.split(": ")[1].split()[0])
+    assert max(beyond(changed), 0) == pytest.approx(told, abs=0.1)
+    assert told <= 10 < 20 < item.value
+    assert changed.margins == design.margins
+    slow = performance(design.changed(tau_c=5 * design.tau_c).loop).setpoint
+    assert slow.overshoot > 0.05
+
+
 CLAIMS = {
+    guards.set_point_overshoot: _overshoots,
     guards.not_stable: _not_stable,
     guards.large_Ms: _large,
     guards.derivative_noise: _derivative,

@@ -154,7 +154,9 @@ def _range_of_OP(design: Design) -> None:
     limits = {"u_min": sheet.off_scale(sheet.OP_low), "u_max": sheet.off_scale(sheet.OP_high)}
     if (actuator.u_min, actuator.u_max) != tuple(limits.values()):
         st.button(
-            f"Limits as in the loop sheet: OP {number(sheet.OP_low)} to {number(sheet.OP_high)}",
+            with_unit(
+                f"Limits as in the loop sheet: OP {number(sheet.OP_low)} to {number(sheet.OP_high)}", sheet.OP_unit
+            ),
             key="range_of_OP",
             type="tertiary",
             icon=":material/arrow_forward:",
