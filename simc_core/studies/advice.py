@@ -28,7 +28,7 @@ from simc_core.reduction.explanation import of_orders
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.bands import exceeds
-from simc_core.studies.remedies import TIGHT, calmer, filter_that_costs_little
+from simc_core.studies.remedies import FILTERS, TIGHT, calmer, filter_that_costs_little
 from simc_core.studies.tuned import Tuned
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
@@ -159,11 +159,15 @@ def derivative_noise(of: Tuned) -> Advice | None:
         times = f", {number(gain / abs(form.Kp), 3)} times Kp" if form.Kp else ""
         text = f"Fast measurement noise reaches the input with this gain{times}. A larger tau_F lowers it."
         return Advice("note", "Noise gain Kd/tau_F", text, gain)
+    text = "The derivative has no filter: measurement noise passes without limit."
     change, Ms = filter_that_costs_little(of)
+    if not change:
+        way = "damp the plant by an inner loop" if isinstance(of.model, OscillatingDelay) else "do without D"
+        remedy = f"A filter of {number(FILTERS[-1])} tau_D already makes the loop fragile: {way}."
+        return Advice("warning", "tau_F = 0", text, remedy=remedy)
     tau_F = change["filter"] * of.controller.tau_D
     remedy = f"Set tau_F/tau_D = {number(change['filter'])}, tau_F = {number(tau_F, 3)}"
     remedy += f": Ms becomes {number(Ms, 3)}." if math.isfinite(Ms) else "."
-    text = "The derivative has no filter: measurement noise passes without limit."
     return Advice("warning", "tau_F = 0", text, remedy=remedy, change=change)
 
 

@@ -91,7 +91,7 @@ def tuned(
         Where there is no model, or a number is out of bounds.
     """
     choices = {"order": order, "h": h, "tau_c": tau_c, "b": b, "filter": filter, "rules": rules, "speed": speed}
-    reduction = _reduced(plant, order, h, rules)
+    reduction = reduced(plant, order, h, rules)
     try:
         return _closed(plant, choices, reduction)
     except InvalidParameter as error:
@@ -137,6 +137,7 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
     return RuleEnds(f"{why}take PID (order 2): {values}, Ms = {number(other.margins.Ms, 4)}", {"order": 2})
 
 
-@lru_cache(maxsize=16)  # 2 s for a plant of forty poles, and every remedy that is tried asks for the same
-def _reduced(plant: Plant, order: int, h: float, rules: str) -> Reduction:
+@lru_cache(maxsize=16)  # a second for a plant of forty poles, and every remedy that is tried asks for the same
+def reduced(plant: Plant, order: int, h: float, rules: str) -> Reduction:
+    """`half_rule`, kept."""
     return half_rule(plant, order, h, rules)

@@ -114,6 +114,14 @@ def test_an_oscillating_plant_rings_after_a_set_point_step_as_well(plant, oversh
     assert feedback < 1e-12 * setpoint  # cancelled in the loop, not from r
 
 
+def test_a_filter_that_would_ruin_the_loop_is_not_proposed():
+    """e^{-s}/(1e4 s^2 + 1e-4 s + 1): tau_D = tau0/(2 zeta) = 1e8; with tau_F = 2e5 there is hardly a margin left."""
+    found = guards.derivative_noise(tuned(Plant(1, 1, lag_pairs=((100, 5e-7),))))
+    assert not found.change
+    assert "fragile" in found.remedy
+    assert _peak(tuned(Plant(1, 1, lag_pairs=((100, 5e-7),)), filter=0.002).loop) > 2
+
+
 def test_the_phase_margin_that_hides_a_large_peak():
     design = tuned(Plant(1, 1, (8, 1)), order=2, tau_c=0.45)
     assert design.margins.PM_deg > 45
@@ -207,6 +215,10 @@ def _derivative(design, item):
         assert form.tau_F == 0
         if "Ms becomes" in item.remedy:
             _Ms_as_told(design, item)
+        if item.change and design.margins.stable:
+            assert _peak(design.changed(**item.change).loop) <= 1.11 * max(_peak(design.loop), 2)
+        if not item.change:
+            assert not _peak(replace(design.loop, controller=design.controller.with_filter(0.002))) <= 2
     else:
         gain = abs(design.controller.response(1j * 1e9 / form.tau_F))
         assert item.value == pytest.approx(gain, rel=1e-6)

@@ -70,7 +70,8 @@ def actuator_view(study: Study, design: Design) -> None:
         if study.tuned and (sampled := sampling_not_in_tuning(study.tuned, design.actuator.h)):
             proposal(sampled)
     with explain_refusal():
-        found = as_built(study.loop, design.actuator.scenario(design.excitation))
+        with st.spinner("Simulating the loop as built"):
+            found = as_built(study.loop, design.actuator.scenario(design.excitation))
         st.html(numbers_html(found, design.sheet))
         left, right = st.columns(2, gap="small")
         with left:
