@@ -1,4 +1,4 @@
-"""The settings as they are typed into the controller at home, and proof that it behaves as designed."""
+"""The settings as they are typed or compiled into the controller at home, and proof that it behaves as designed."""
 
 import streamlit as st
 
@@ -8,12 +8,21 @@ from pages.common.session.design import Design
 from pages.common.shell import header
 from pages.common.studies.single import Study, present_study
 from pages.common.take_home import view as take_home
+from pages.common.take_home.code import code
 from pages.common.take_home.way_out import way_out
 from simc_core.errors import FormError
 
+VIEWS = ("Settings", "Code")
 
-def show(design: Design, present: Study) -> None:
-    """What is typed, the proof, what differs; or what can be done where the box has no such form."""
+
+def in_the_box(design: Design, present: Study) -> None:
+    """What is typed, the proof, what to mind; or what can be done where the box has no such form."""
+    if not design.box:
+        st.info(
+            "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
+            "numbers are another controller in another box."
+        )
+        return
     try:
         found = take_home.numbers(design, present)
     except FormError as error:
@@ -35,11 +44,7 @@ with explain_refusal():
         if design.box:
             take_home.in_the_box_now(design)
     with shown:
-        if design.box:
-            with explain_refusal():
-                show(design, present)
-        else:
-            st.info(
-                "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
-                "numbers are another controller in another box."
-            )
+        for view, show in zip(st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code), strict=True):
+            if view.open:
+                with view, explain_refusal():
+                    show(design, present)

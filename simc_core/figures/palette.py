@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 Figure = dict[str, Any]
 Trace = dict[str, Any]
@@ -77,7 +78,9 @@ def config(name: str) -> dict[str, Any]:
     }
 
 
-def line(x, y, name: str, color: str, dash: str = "solid", width: float = 2.0, **more) -> Trace:
+def line(
+    x: ArrayLike, y: ArrayLike, name: str, color: str, dash: str = "solid", width: float = 2.0, **more: object
+) -> Trace:
     """A curve through every one of its points: simplification would put kinks in it."""
     return {
         "type": "scatter",
@@ -89,7 +92,7 @@ def line(x, y, name: str, color: str, dash: str = "solid", width: float = 2.0, *
     } | more
 
 
-def marker(x: float, y: float, label: str, color: str, name: str, position: str = "top right", **more) -> Trace:
+def marker(x: float, y: float, label: str, color: str, name: str, position: str = "top right", **more: object) -> Trace:
     """One point with its label beside it."""
     return {
         "type": "scatter",
@@ -112,7 +115,7 @@ def shade(color: str, position: int) -> tuple[str, str, float]:
     return PIN_SHADES[color][position - 1], PIN_DASHES[position - 1], 1.6
 
 
-def axis(title: str, **more) -> dict[str, Any]:
+def axis(title: str, **more: object) -> dict[str, Any]:
     """A linear axis with name and unit."""
     return {
         "title": {"text": title, "standoff": 14, "font": {"size": 12}},
@@ -127,12 +130,12 @@ def axis(title: str, **more) -> dict[str, Any]:
     } | more
 
 
-def log_axis(title: str, **more) -> dict[str, Any]:
+def log_axis(title: str, **more: object) -> dict[str, Any]:
     """A logarithmic axis, decades as powers of ten."""
     return axis(title, type="log", exponentformat="power", dtick=1, tickfont={"size": TICKS / PLOTLY_POWER}) | more
 
 
-def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None = None, **layout) -> Figure:
+def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None = None, **layout: object) -> Figure:
     """The figure dict. height in px, None to fill what the page gives."""
     return {
         "data": list(traces),

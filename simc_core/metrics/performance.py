@@ -12,6 +12,7 @@ more than limits.MOST_TO_REST elements to come to rest is too close to its stabi
 
 import math
 from dataclasses import dataclass, replace
+from typing import overload
 
 import numpy as np
 
@@ -35,12 +36,22 @@ TINY = 1e-300
 
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """Unit step of the set point, and of the disturbance at the plant input."""
+    """What is measured on the steps of a single loop.
+
+    Attributes
+    ----------
+    setpoint, disturbance : StepMetrics
+        Unit step of the set point, and of the disturbance at the plant input.
+    """
 
     setpoint: StepMetrics
     disturbance: StepMetrics
 
 
+@overload
+def performance(loop: Loop) -> Performance: ...
+@overload
+def performance(loop: CascadeLoop | NestedLoops) -> NestedPerformance: ...
 def performance(loop: Loop | CascadeLoop | NestedLoops) -> Performance | NestedPerformance:
     """IAE, overshoot, settling time and the like, of unit steps of set point and load; the dead time is exact.
 
@@ -97,7 +108,8 @@ def _of_single(loop: Loop) -> Performance:
     tails = [_Tail(each, course, source) for source, each in enumerate(found)]
     if not _no_mode_is_slower(loop, max(tail.negligible_rate() for tail in tails)):
         poles = dominant_poles(loop, most=1)
-        found = [tail.added(poles[0].s) for tail in tails] if poles else found
+        if poles:
+            found = tuple(tail.added(poles[0].s) for tail in tails)
     return Performance(*found)
 
 

@@ -113,6 +113,41 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     )
 
 
+def reduced_model(plant: Plant, order: int = 1) -> Model:
+    """The model of `half_rule` alone, without the steps and without what the other order is worth: many times faster.
+
+    Parameters
+    ----------
+    plant : Plant
+        The plant to be reduced.
+    order : int
+        1 for a PI controller, 2 for a PID.
+
+    Returns
+    -------
+    Model
+        `half_rule(plant, order).model`.
+
+    Raises
+    ------
+    NotReducible
+        The plant has no SIMC model.
+
+    References
+    ----------
+    [SK03 eq. 10-11]
+
+    Examples
+    --------
+    >>> from simc_core import parse_plant
+    >>> reduced_model(parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))"))
+    FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
+    """
+    parts = dynamics(plant)
+    removed = partial(_removed, parts)
+    return _chosen(_reduce(plant, parts, removed, 0.0, "2003", checks.whole("order", order, 1, 2)))
+
+
 def _chosen(reduced: _Reduced) -> Model:
     return next(candidate.model for candidate in reduced[0] if candidate.chosen)
 

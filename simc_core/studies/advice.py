@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
 from simc_core.errors import FormError, NotReducible, SimcError
 from simc_core.metrics.performance import performance
 from simc_core.notation import number
@@ -150,7 +150,7 @@ def slowest_useful(plant: Plant, model: Model) -> float:
 
 
 def derivative_noise(of: Tuned) -> Advice | None:
-    """Derivative action without a filter, or the noise gain Kd/tau_F with it."""
+    """Derivative action without a filter, or the high-frequency gain Kd/tau_F with it."""
     form = of.controller.to_parallel()
     if not form.Kd:
         return None
@@ -158,13 +158,14 @@ def derivative_noise(of: Tuned) -> Advice | None:
         gain = abs(form.Kd) / form.tau_F
         times = f", {number(gain / abs(form.Kp), 3)} times Kp" if form.Kp else ""
         text = f"Fast measurement noise reaches the input with this gain{times}. A larger tau_F lowers it."
-        return Advice("note", "Noise gain Kd/tau_F", text, gain)
+        return Advice("note", "High-frequency gain Kd/tau_F", text, gain)
     text = "The derivative has no filter: measurement noise passes without limit."
     change, Ms = filter_that_costs_little(of)
     if not change:
         way = "damp the plant by an inner loop" if isinstance(of.model, OscillatingDelay) else "do without D"
         remedy = f"A filter of {number(FILTERS[-1])} tau_D already makes the loop fragile: {way}."
         return Advice("warning", "tau_F = 0", text, remedy=remedy)
+    assert isinstance(of.controller, SeriesPid | IdealPid)  # SIMC with derivative action
     tau_F = change["filter"] * of.controller.tau_D
     remedy = f"Set tau_F/tau_D = {number(change['filter'])}, tau_F = {number(tau_F, 3)}"
     remedy += f": Ms becomes {number(Ms, 3)}." if math.isfinite(Ms) else "."
@@ -252,7 +253,7 @@ def delivered(controller: Controller) -> str:
     """What the controller is: I, PI or PID."""
     if isinstance(controller, IController):
         return "I"
-    return "PID" if controller.tau_D else "PI"
+    return "PID" if controller.to_parallel().Kd else "PI"
 
 
 def advice_on_settings(plant: Plant, controller: Controller) -> tuple[Advice, ...]:

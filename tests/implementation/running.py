@@ -1,4 +1,5 @@
-"""Exported controllers made to run here: Python as it is, C by gcc, the others by a few lines that read their syntax.
+"""Exported controllers made to run here: Python as it is, C by gcc, MATLAB by Octave, the others by lines
+that read their syntax.
 
 Each runner has step(r, y, manual, u_manual, u_ff) -> u, and gains that can be set.
 """
@@ -6,7 +7,8 @@ Each runner has step(r, y, manual, u_manual, u_ff) -> u, and gains that can be s
 import ctypes
 import re
 import subprocess
-from types import SimpleNamespace
+from functools import cache
+from itertools import count
 
 from simc_core import export
 
@@ -96,25 +98,55 @@ class StructuredText(Variables):
         self.scope["LIMIT"] = lambda low, value, high: min(max(value, low), high)
 
 
-class Matlab:
+class Scl(StructuredText):
+    """Its dialect read as Structured Text: # before names, LIMIT with named arguments."""
+
     def __init__(self, text, folder):
-        lines = [re.sub(r"%.*", "", line).strip() for line in text.splitlines()[1:]]
-        lines = ["return pid" if line == "return" else line for line in lines if line]
-        assert lines.pop() == "end"
-        code = as_python(lines, r"if (.*)", r"end", r"else").replace("~", "not ")
-        code = code.replace("false", "False").replace("true", "True")
-        code = "\n".join("    " + line for line in code.splitlines())
-        scope = {}
-        exec(f"def simc_pid(pid, r, y, manual, u_manual, u_ff, nargin):\n{code}\n    return pid", scope)
-        self.function = scope["simc_pid"]
-        self.pid = self.function(SimpleNamespace(), *[None] * 5, 0)
+        assert text.count("BEGIN") == 1
+        text = text.replace("BEGIN", "").replace("#", "").replace(": LReal", ": LREAL")
+        super().__init__(re.sub(r"(MN|IN|MX) := ", "", text), folder)
+
+
+class Logix(Variables):
+    """A routine; its tags are named in the comment."""
+
+    def __init__(self, text, folder):
+        comment, body = re.fullmatch(r"\(\*(.*?)\*\)(.*)", text, re.DOTALL).groups()
+        reals = re.search(r"REAL tags: (.*)\.", comment)[1].split(", ")
+        lines = [line.strip() for line in body.splitlines() if line.strip()]
+        code = as_python(lines, r"IF (.*) THEN", r"END_IF;", r"ELSE")
+        self.body = compile(code.replace("NOT ", "not ").replace("TRUE", "True"), "pid.txt", "exec")
+        self.scope = dict.fromkeys(reals, 0.0) | {"manual": False, "started": False}
+        assert set(self.body.co_names) <= set(self.scope)
+
+
+class Octave:
+    """simc_pid.m called by a running Octave, one for all tests, as a user calls it from the folder it lies in."""
+
+    def __init__(self, text, folder):
+        (folder / "simc_pid.m").write_text(text)
+        self.octave, self.name = octave(), f"pid{next(numbers)}"
+        self.octave.stdin.write(f"cd('{folder}'); clear simc_pid; {self.name} = simc_pid();\n")
 
     def set(self, **gains):
-        vars(self.pid).update(gains)
+        for name, value in gains.items():
+            self.octave.stdin.write(f"{self.name}.{name} = {value!r};\n")
 
     def step(self, r, y, manual=False, u_manual=0.0, u_ff=0.0):
-        self.pid = self.function(self.pid, r, y, manual, u_manual, u_ff, 6)
-        return self.pid.u
+        given = f"{self.name}, {float(r)!r}, {float(y)!r}, {str(manual).lower()}, {u_manual!r}, {u_ff!r}"
+        self.octave.stdin.write(f'{self.name} = simc_pid({given}); printf("%.17g\\n", {self.name}.u);\n')
+        self.octave.stdin.flush()
+        return float(self.octave.stdout.readline())  # of nothing, where Octave has stopped with an error
+
+
+numbers = count()
+
+
+@cache
+def octave():
+    """Ends when its input does, with the tests. An error ends it too."""
+    command = ["octave-cli", "--norc", "--quiet"]
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
 class Modelica(Variables):
@@ -128,7 +160,15 @@ class Modelica(Variables):
         self.scope |= dict.fromkeys(re.findall(r"discrete Real (\w+)\(", head), 0.0)
 
 
-RUNNERS = {"python": Python, "c": C, "st": StructuredText, "matlab": Matlab, "modelica": Modelica}
+RUNNERS = {
+    "python": Python,
+    "c": C,
+    "st": StructuredText,
+    "scl": Scl,
+    "logix": Logix,
+    "matlab": Octave,
+    "modelica": Modelica,
+}
 
 
 def running(controller, language, folder, h, runner=None, **how):

@@ -18,9 +18,11 @@ from simc_core import (
     Scenario,
     SeriesPid,
     export,
+    from_box,
     margins,
     simulate,
 )
+from simc_core.implementation.exports.program import SETTINGS, STATE
 from simc_core.implementation.single_precision import dead_error
 from tests.implementation.running import RUNNERS, CSingle, StructuredText, running
 from tests.oracles.sampled_loop import driven
@@ -101,7 +103,7 @@ def test_manual_and_feedforward_keep_the_limits(language, tmp_path):
     assert pid.step(0.0, 0.0, False, 0.0, 40.0) == 10
 
 
-@pytest.mark.parametrize("language", ["python", "c", "st", "matlab"])
+@pytest.mark.parametrize("language", ["python", "c", "st", "scl", "logix", "matlab"])
 def test_the_first_call_takes_measurement_and_set_point_as_they_are(language, tmp_path):
     """No derivative kick: u = Kp (b r - y) + h Ki (r - y) for a filter that starts at the measurement."""
     pid = RUNNERS[language](export(PID, language, 0.2), tmp_path)
@@ -135,6 +137,35 @@ printf("%d %d %.12g", calls, pwm, (double)pid.u); }
     assert float(u) == pytest.approx(2 * e + int(calls) * 0.5 * 0.2 * e, rel=1e-9)
     assert int(pwm) == round(2.55 * float(u))
     assert "does not move the integral any more" in sketch
+
+
+@pytest.mark.parametrize(("law", "h"), [("backward", 0.2), ("tustin", 0.5)])
+def test_the_arduino_sketch_fits_an_atmega328(law, h, tmp_path):
+    """Linked for its 32 KB, of which the boot loader takes 0.5, with avr-libc and a board that does nothing."""
+    board = """
+#include <stdint.h>
+enum { A0 = 14 };
+static volatile int level; static volatile unsigned long now;
+unsigned long micros(void) { return now; }
+int analogRead(int pin) { return level + pin; }
+void analogWrite(int, int value) { level = value; }
+"""
+    source, program = tmp_path / "sketch.cpp", tmp_path / "sketch.elf"
+    sketch = export(PID, "arduino", h, law, u_min=0, u_max=100)
+    source.write_text(f"{board}{sketch}\nint main() {{ setup(); for (;;) loop(); }}\n")
+    flags = ["-mmcu=atmega328p", "-Os", "-Wall", "-Wextra", "-Werror"]
+    subprocess.run(["avr-g++", *flags, str(source), "-o", str(program)], check=True)
+    sizes = subprocess.run(["avr-size", str(program)], capture_output=True, text=True, check=True).stdout
+    text, data, bss = map(int, sizes.splitlines()[1].split()[:3])
+    assert 1000 < text + data < 32256
+    assert 4 * (len(SETTINGS) + len(STATE)) <= data + bss < 2048  # each number has 4 bytes there
+
+
+def test_c_compiles_for_a_small_processor_without_a_warning(tmp_path):
+    source = tmp_path / "pid.c"
+    source.write_text(export(PID, "c", 0.2, single=True))
+    flags = ["-mmcu=atmega328p", "-std=c99", "-Os", "-Wall", "-Wextra", "-Wshadow", "-pedantic", "-Werror"]
+    subprocess.run(["avr-gcc", *flags, "-c", str(source), "-o", str(tmp_path / "pid.o")], check=True)
 
 
 @pytest.mark.parametrize(
@@ -203,8 +234,10 @@ def test_the_header_tells_plant_design_peaks_period_unit_and_date(language):
         ({"language": "python-control"}, "plant must be given for python-control"),
         ({"language": "arduino"}, "u_min and u_max must be given for an Arduino"),
         ({"language": "arduino", "h": 5000, "u_min": 0, "u_max": 1}, "h must be from 0.0001 to 4000 s"),
-        ({"u_min": 1.0, "u_max": 2.0}, "u_min must be <= 0"),
-        ({"date": "*/ evil"}, "date must be a date"),
+        ({"u_min": 2.0, "u_max": 1.0}, "u_max must be > u_min = 2"),
+        ({"u_min": math.nan}, "u_min must be finite"),
+        ({"date": "*/ evil"}, "date may have letters"),
+        ({"about": 'TIC-1"""'}, "about may have letters"),
         ({"unit": "h"}, "unit must be s or min"),
         ({"controller": IController(0.3)}, "tracking_time or plant must be given for pure integral action"),
     ],
@@ -222,3 +255,29 @@ def test_an_integral_in_single_precision_has_a_dead_error():
     assert I + np.float32(0.99 * found * 0.01 / 2000) == I
     assert I + np.float32(1.01 * found * 0.01 / 2000) > I
     assert dead_error(50, 0, 0.01) == math.inf
+
+
+def test_settings_of_a_box_have_the_design_beside_them():
+    """DeltaV with the settings of the unfiltered design typed in: Ms 1.9358 [measured apart], the design's 1.6089."""
+    design = IdealPid(6.875, 11, 24 / 11)
+    typed = from_box("deltav_standard", {"GAIN": 6.875, "RESET": 11, "RATE": 2.18182, "ALPHA": 0.125})
+    about = "loop TIC-101, PV in °C, output in %"
+    text = export(typed, "c", 0.1, plant=Plant(1, 1, (10, 3)), design=design, about=about)
+    assert f"design  {design!r}" in text
+    assert f"typed   {typed!r}" in text
+    assert "Ms      1.609 as designed, 1.936 as typed, " in text
+    assert about in text
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_an_output_of_4_to_20_mA_starts_from_manual_without_a_bump(language, tmp_path):
+    pid = RUNNERS[language](export(SeriesPid(0.5, 8), language, 0.1, u_min=4, u_max=20), tmp_path)
+    for _ in range(3):
+        assert pid.step(50.0, 50.0, True, 12.0) == 12
+    assert pid.step(50.0, 50.0) == pytest.approx(12, abs=1e-12)
+    assert pid.step(50.0, 500.0) == 4
+
+
+@pytest.mark.parametrize(("language", "tool"), [("scl", "TIA Portal"), ("logix", "Studio 5000")])
+def test_what_nobody_compiled_says_so(language, tool):
+    assert f"NOT COMPILED: no {tool} was at hand" in export(PID, language, 0.2)

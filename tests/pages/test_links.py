@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from pages.common.session import links, project
 from pages.common.session.design import Actuator, Cascade, Design, Excitation, Tuning, put
+from pages.common.session.home import EXPORTED, LANGUAGES, ROUNDINGS, Home
 from pages.common.session.loops import Entry, Loops
 from pages.common.session.sheet import TIME_UNITS, Sheet
 from simc_core import IController, IdealPid, ParallelPid, Plant, SeriesPid
@@ -99,6 +100,12 @@ actuators = st.builds(
     seed=st.integers(0, 2**32 - 1),
     h=st.just(0.0) | times,
 )
+homes = st.builds(
+    Home,
+    rounding=st.sampled_from(ROUNDINGS),
+    language=st.sampled_from(sorted(LANGUAGES)),
+    exported=st.sampled_from(EXPORTED),
+)
 designs = st.builds(
     Design,
     plant=plants,
@@ -108,6 +115,7 @@ designs = st.builds(
     now=st.none() | settings_,
     pins=st.lists(tunings | settings_, max_size=4).map(tuple),
     sheet=sheets,
+    home=homes,
     cascade=cascades,
     actuator=actuators,
     excitation=excitations,
@@ -160,7 +168,7 @@ def test_the_address_of_the_default_is_short():
         ("order", "1.5", "whole"),
         ("plant", "1/(s+", "1/(s+"),
         ("plant", "s", ""),
-        ("plant", "2/(10s 1)", ""),  # a plus that was not written %2B arrives as a blank
+        ("plant", "2/(10 s 1 1)", ""),  # a plus that was not written %2B arrives as a blank
         ("form", "PID", "series, ideal, parallel"),
         ("speed", "2 furlongs", "1.5theta"),
         ("own", "series~1~2", "6 values"),
@@ -249,3 +257,28 @@ def test_tight_is_written_as_nothing_and_infinity_is_not_a_number_here():
     assert "tau_c" not in links.encode(Design(tuning=Tuning(tau_c=None)))
     _, ignored = links.decode({"tau_c": str(math.inf)})
     assert ignored
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("exp(-3s)/((6s 1)(4s 1)(2s 1))", "exp(-3s)/((6s+1)(4s+1)(2s+1))"),
+        ("(10s 1)exp(-100s)/((0.001s 1)(20s 1))", "(10s+1)exp(-100s)/((0.001s+1)(20s+1))"),
+        ("1/(s^2 3s 1)", "1/(s^2+3s+1)"),
+        ("exp(-s)/(s**2 .5s 1)", "exp(-s)/(s**2+.5s+1)"),
+    ],
+)
+def test_a_plus_that_an_address_has_turned_into_a_space_is_read(typed, meant):
+    # RFC 3986 leaves + alone, forms (WHATWG URL, application/x-www-form-urlencoded) read it as a space
+    assert links.decode({"plant": typed}) == links.decode({"plant": meant})
+
+
+@pytest.mark.parametrize("text", ["1/(6s 1)(s x)", "1/(5 3s)", "2 3/(s 1)"])
+def test_other_spaces_of_an_address_are_refused(text):
+    _, ignored = links.decode({"plant": text})
+    assert [bad.name for bad in ignored] == ["plant"]
+
+
+def test_a_lost_plus_elsewhere_names_the_way_out():
+    _, (bad,) = links.decode({"plant": "1/(s 1 3s)"})
+    assert "%2B" in bad.why

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from pages.common.take_home.written import LANGUAGES
 from simc_core import BOXES
 from tests.pages.tools import address, copyables, run_page, texts
 
@@ -136,3 +137,61 @@ def test_a_refusal_of_one_box_is_not_told_under_another():
     assert "must be given" in app.error[0].value
     app.selectbox(key="box").set_value("matlab_pid").run()
     assert not app.error
+
+
+def code_of(app) -> str:
+    (block,) = app.get("code")
+    return block.value
+
+
+def in_code(**given):
+    return run_page("take_home", "Code", "home_views", **{"plant": PLANT, "unit": "s", "sampling": "0.5"} | given)
+
+
+@pytest.mark.parametrize("language", sorted(LANGUAGES))
+def test_every_language_is_written_and_offered_as_a_file(language):
+    app = in_code(language=language, PV_unit="°C", tag="TIC-101 */", u_min="-40", u_max="60", OP_now="40")
+    text = code_of(app)
+    assert "exp(-3 s)/((6 s + 1) (4 s + 1) (2 s + 1))" in text
+    assert "loop TIC-101" in text
+    assert "*/," not in text
+    assert f"Download {LANGUAGES[language].file}" in [each.proto.label for each in app.get("download_button")]
+    assert any("Not compiled" in each.value for each in app.warning) == (language in ("scl", "logix"))
+    if language != "python-control":
+        assert "100.0" in text
+
+
+def test_the_code_of_hours_is_in_seconds_and_runs():
+    """tau_I 8 h = 28800 s: of the first error 1 the integral takes h Kc/tau_I = 360 Kc/28800."""
+    app = in_code(unit="h", sampling="0.1")
+    scope = {}
+    exec(code_of(app), scope)
+    pid = scope["Pid"]()
+    pid.step(0.0, 0.0)
+    assert pid.step(1.0, 0.0) == pytest.approx(4 / 7 * (1 + 360 / 28800), rel=1e-9)
+
+
+def test_the_code_of_what_is_typed_tells_both():
+    app = in_code(box="honeywell_udc", exported="typed")
+    assert "as designed" in code_of(app)
+    assert "as typed" in code_of(app)
+    app.selectbox(key="widget_language").set_value("c").run()
+    assert address(app)["language"] == "c"
+    assert "pid_step" in code_of(app)
+
+
+def test_without_a_sampling_period_one_is_offered_that_costs_5_per_cent():
+    app = in_code(sampling="0")
+    assert not app.get("code")
+    app.button(key="take_period").click().run()
+    assert 0.5 < float(address(app)["sampling"]) < 2
+    designed, sampled = re.search(r"Ms +([0-9.]+) as designed, ([0-9.]+) sampled", code_of(app)).groups()
+    assert 1.03 < float(sampled) / float(designed) <= 1.05
+
+
+def test_what_cannot_be_written_is_told_and_the_choice_stays():
+    app = in_code(language="arduino")
+    assert "u_min and u_max must be given for an Arduino" in texts(app).replace("$u_{min}$", "u_min").replace(
+        "$u_{max}$", "u_max"
+    )
+    assert app.selectbox(key="widget_language").value == "arduino"

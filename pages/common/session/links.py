@@ -4,7 +4,9 @@
     facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
     pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
-    box                                              what the settings are typed into
+    example, structure, begin, end, bad              what is chosen of a record on the page From data
+    origin                                           of a plant that was identified there
+    box, rounding, language, exported                what the settings are typed into, or written as
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
     u_min, u_max, T_t, noise, seed, sampling, law    the loop as built, only where it is not the default
@@ -13,18 +15,21 @@
 Numbers are written with all their digits, so that a link opens the very same design.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from urllib.parse import quote, urlencode
 
 from pages.common.session.design import PLACES, Design, Tuning, get, put
-from simc_core import parse_plant
+from pages.common.session.record import bad_of, bad_text, origin_of, origin_text
+from simc_core import Plant, parse_plant
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
 from simc_core.notation import plain
 from simc_core.plants.step_facts import SettlingFacts, SlopeFacts, StepFacts
 
+LOST_PLUS = re.compile(r"((?<![A-Za-z])[sp](?:(?:\^|\*\*)\d+)?) (?=[\d.])")
 LONGEST_VALUE = 2000  # characters of one parameter; a plant of 40 poles needs fewer
 TUNING_FIELDS = tuple(name for name, (record, _) in PLACES.items() if record == "tuning")
 SETTINGS = ("own", "now")
@@ -32,7 +37,8 @@ FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "
 TEXTS = (
     *("rules", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
-    *("method", "inner", "outer", "filter_outer", "law"),
+    *("method", "inner", "outer", "filter_outer", "law", "example", "structure"),
+    *("rounding", "language", "exported"),
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")
@@ -111,7 +117,7 @@ def _changed(design: Design, name: str, text: str) -> Design:
         raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
     if name not in PLACES:
         raise SimcError("no parameter has this name")
-    return put(design, name, _read(name, text))
+    return put(design, name, origin_of(text, design.plant) if name == "origin" else _read(name, text))
 
 
 def _text(name: str, value) -> str:
@@ -123,6 +129,10 @@ def _text(name: str, value) -> str:
         return settings_text(value)
     if name in FACTS:
         return facts_text(value)
+    if name == "origin":
+        return origin_text(value)
+    if name == "bad":
+        return bad_text(value)
     return plain(value) if name in PLANTS else number_text(value)
 
 
@@ -130,17 +140,36 @@ def _read(name: str, text: str):
     if name in TEXTS:
         return text
     if name in PLANTS:
-        return parse_plant(text)
+        return _plant(text)
     if name == "pins":
         return tuple(map(_pin, text.split("!")))
     if name in SETTINGS:
         return settings_of(text)
     if name in FACTS:
         return facts_of(text)
+    if name == "bad":
+        return bad_of(text)
     try:
         return float(text)
     except ValueError:
         raise SimcError("a number was expected") from None
+
+
+def _plant(text: str) -> Plant:
+    """A plant of an address. One typed by hand has lost its + signs: an address says + for a space.
+
+    A space after s or a power of s and before a digit can have been nothing else, 6s 1; other spaces stay refused.
+    """
+    try:
+        return parse_plant(text)
+    except SimcError as error:
+        mended = LOST_PLUS.sub(r"\1+", text)
+        if mended == text:
+            raise
+        try:
+            return parse_plant(mended)
+        except SimcError:
+            raise SimcError(f"{error}; a + in an address is written %2B") from None
 
 
 def settings_text(controller: Controller | None) -> str:

@@ -5,6 +5,7 @@ Numbers of a design are in these units, so changing the time unit of a sheet con
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -97,3 +98,10 @@ def _text(name: str, given, longest: int) -> str:
     if len(text) > longest:
         raise InvalidParameter(f"{name} may have at most {longest} characters, got {len(text)}")
     return text
+
+
+def one_of(name: str, value, choices: Iterable[str]) -> str:
+    """`value`, which must be one of `choices`. Raises InvalidParameter."""
+    if value not in choices:
+        raise InvalidParameter(f"{name} must be one of {', '.join(choices)}, got {str(value)[:40]}")
+    return value

@@ -17,7 +17,7 @@ from simc_core.plants.plant import Plant
 
 GROUPS = {
     "Start": {"home": "Home"},
-    "Model": {"plant": "Plant", "half_rule": "Half rule"},
+    "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
     "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
     "Use": {"take_home": "Take home"},
     "Learn": {"accuracy": "Accuracy"},
@@ -93,7 +93,7 @@ def _take_along() -> None:
     copyable(state.address(), "address_text")
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
-    upload = st.file_uploader("Open project", type="json", key="project_file")
+    upload = st.file_uploader("Open project", type="json", key="project_file", max_upload_size=1)
     if upload is not None:
         _open(upload)
 

@@ -30,7 +30,7 @@ ROWS = {  # of Margins: label; delay_margin in the time unit
     "PM_deg": "phase margin [°]",
     "delay_margin": "delay margin",
 }
-LAWS = {"backward": "backward difference", "tustin": "Tustin, bilinear"}
+LAWS = {"backward": "backward", "tustin": "Tustin"}
 
 
 def choose(design: Design) -> None:
@@ -45,7 +45,15 @@ def choose(design: Design) -> None:
         key="box",
         on_change=lambda: state.overtaken("box") or state.change(box=state.widget("box") or ""),
     )
-    st.toggle("Rounded to what can be typed", value=True, key="rounded", help="On the safe side: gain down, τI up.")
+    state.set_widget("rounded", design.home.rounding == "safe")
+    st.toggle(
+        "Rounded to what can be typed",
+        key="rounded",
+        on_change=lambda: (
+            state.overtaken("rounded") or state.change(rounding="safe" if state.widget("rounded") else "none")
+        ),
+        help="On the safe side: gain down, τI up.",
+    )
     places = st.columns(2, gap="small")
     design_number("sampling", "Sampling period", quantity="time", key="home_sampling", place=places[0])
     if design.actuator.h:
@@ -61,8 +69,7 @@ def choose(design: Design) -> None:
 
 def numbers(design: Design, present: Study) -> Typed:
     """What is typed. Raises SimcError where the box does not take the design."""
-    rounded = state.widget("rounded", True)
-    found = typed_into(design.box, present.controller, design.sheet, rounded)
+    found = typed_into(design.box, present.controller, design.sheet, design.home.rounding == "safe")
     shown = rows(design.box, found, design.sheet)
     st.caption(f"{'My settings' if design.source == 'own' else 'The settings by SIMC'}, as this box has them:")
     st.html(_numbers_html(shown))

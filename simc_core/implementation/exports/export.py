@@ -12,7 +12,7 @@ from simc_core.implementation.exports.modelica import modelica
 from simc_core.implementation.exports.program import Program, program
 from simc_core.implementation.exports.python import python
 from simc_core.implementation.exports.python_control import python_control
-from simc_core.implementation.exports.structured_text import structured_text
+from simc_core.implementation.exports.structured_text import logix, scl, structured_text
 from simc_core.plants.plant import Plant
 
 LANGUAGES: Mapping[str, Callable[[Program], str]] = MappingProxyType(
@@ -20,6 +20,8 @@ LANGUAGES: Mapping[str, Callable[[Program], str]] = MappingProxyType(
         "python": python,
         "c": c,
         "st": structured_text,
+        "scl": scl,
+        "logix": logix,
         "matlab": matlab,
         "python-control": python_control,
         "arduino": arduino,
@@ -40,21 +42,24 @@ def export(
     unit: str = "s",
     date: str = "",
     single: bool = False,
+    design: Controller | None = None,
+    about: str = "",
 ) -> str:
     """The sampled controller as source text; it does what `simulate` does with the same h and law.
 
     Parameters
     ----------
     controller : SeriesPid, IdealPid, ParallelPid or IController
-        The design.
-    language : {"python", "c", "st", "matlab", "python-control", "arduino", "modelica"}
-        "st" is Structured Text of IEC 61131-3, "matlab" is for Octave too, "python-control" a script with the margins.
+        What is written down.
+    language : {"python", "c", "st", "scl", "logix", "matlab", "python-control", "arduino", "modelica"}
+        "st" is Structured Text of IEC 61131-3, "scl" and "logix" are its dialects of Siemens and Rockwell, "matlab" is
+        for Octave too, "python-control" a script with the margins.
     h : float
         Sampling period, in the time unit of the controller.
     law : {"backward", "tustin"}
         See controllers/discrete.py.
     u_min, u_max : float
-        Limits of the output, 0 between them.
+        Limits of the output, on its own scale.
     tracking_time : float, optional
         Of the anti-windup. None: the usual one, sqrt(tau_I tau_D), or tau_I without derivative action.
     plant : Plant, optional
@@ -64,7 +69,11 @@ def export(
     date : str
         For the header.
     single : bool
-        32-bit numbers, in "c" and "st".
+        32-bit numbers, in "c", "st" and "scl"; "logix" has no others here.
+    design : Controller, optional
+        What `controller` was made from, where that is read back from a box: the header tells both.
+    about : str
+        A line for the header: the tag of the loop, the units of PV and output.
 
     Returns
     -------
@@ -87,4 +96,6 @@ def export(
     """
     if language not in LANGUAGES:
         raise InvalidParameter(f"language must be one of {', '.join(LANGUAGES)}, got {language!r}")
-    return LANGUAGES[language](program(controller, h, law, u_min, u_max, tracking_time, plant, unit, date, single))
+    return LANGUAGES[language](
+        program(controller, h, law, u_min, u_max, tracking_time, plant, unit, date, single, design, about)
+    )

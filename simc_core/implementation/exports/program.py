@@ -8,6 +8,7 @@ of controllers/discrete.py; around it come what a running program needs:
     u_ff                    is added before the limits
 """
 
+import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -22,7 +23,6 @@ from simc_core.loops.loop import Loop
 from simc_core.notation import number, plain
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
-from simc_core.simulation.actuator.actuation import Actuation
 
 NO_LIMIT = 1e38  # what stands for an infinite limit: within the range of single precision
 INPUTS = ("r", "y", "u_manual", "u_ff")
@@ -82,7 +82,7 @@ INTEGRAL: dict[str, Statement] = {
 }
 OUTPUT: Statement = ("v", "Kp*(b*rF - yF) + I + Kd*(c*dr - dy) + u_ff")
 MANUAL: tuple[Statement, ...] = (("v", "u"), ("I", "u - u_ff - Kp*(b*rF - yF)"))
-DATE = re.compile(r"[\w .,:+/-]*")  # nothing that could end a comment
+REMARK = re.compile(r"[\w .,:+/%°-]{0,200}")  # nothing that could end a comment
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,38 +130,65 @@ def program(
     unit: str,
     date: str,
     single: bool,
+    design: Controller | None,
+    about: str,
 ) -> Program:
     """The checked program. Raises InvalidParameter."""
     pid, h = controller.to_parallel(), checks.positive_time("h", h)
     law_for(law, pid, h)
-    limits = Actuation(u_min, u_max, tracking_time)
+    u_min, u_max = _limits(u_min, u_max)
+    if tracking_time is not None and tracking_time != math.inf:
+        tracking_time = checks.positive_time("tracking_time", tracking_time)
     if unit not in ("s", "min"):
         raise InvalidParameter(f"unit must be s or min, got {unit!r}")
-    if not DATE.fullmatch(date):
-        raise InvalidParameter(f"date must be a date in letters, digits and . , : + / -, got {date!r}")
+    for name, text in (("date", date), ("about", about)):
+        if not REMARK.fullmatch(text):
+            raise InvalidParameter(f"{name} may have letters, digits, blanks and . , : + / % ° -, got {text[:40]!r}")
     if tracking_time is None and not pid.Kp and plant is None:
         raise InvalidParameter("tracking_time or plant must be given for pure integral action, got neither")
     k, integrators = (plant.k, plant.integrators) if plant else (1.0, 0)
-    T_t = limits.tracking_time or usual_tracking_time(controller, k, integrators)
+    T_t = tracking_time or usual_tracking_time(controller, k, integrators)
     filters = {"backward": (pid.tau_F / (pid.tau_F + h), 0.0)}
     filters["tustin"] = ((2 * pid.tau_F - h) / (2 * pid.tau_F + h), h / (2 * pid.tau_F + h))
     values = dict(zip(SETTINGS, (pid.Kp, pid.Ki, pid.Kd, pid.b, pid.c, h, *filters[law]), strict=False))
-    values |= {"pull": min(h / T_t, 1.0), "u_min": max(limits.u_min, -NO_LIMIT), "u_max": min(limits.u_max, NO_LIMIT)}
-    header = _header(controller, h, law, plant, unit, date)
+    values |= {"pull": min(h / T_t, 1.0), "u_min": u_min, "u_max": u_max}
+    header = _header(controller, h, law, plant, unit, date, design or controller, about)
     return Program(header, values, law, pid.tau_F > 0, pid, h, unit, plant, single)
 
 
-def _header(controller: Controller, h: float, law: str, plant: Plant | None, unit: str, date: str) -> tuple[str, ...]:
+def _limits(u_min: float, u_max: float) -> tuple[float, float]:
+    """Limits on the output's own scale, where 0 need not be between them: 4 to 20 mA."""
+    low = -NO_LIMIT if u_min == -math.inf else checks.real("u_min", u_min, -NO_LIMIT, NO_LIMIT)
+    high = NO_LIMIT if u_max == math.inf else checks.real("u_max", u_max, -NO_LIMIT, NO_LIMIT)
+    if not low < high:
+        raise InvalidParameter(f"u_max must be > u_min = {low:g}, got {high:g}")
+    return low, high
+
+
+def _header(
+    controller: Controller,
+    h: float,
+    law: str,
+    plant: Plant | None,
+    unit: str,
+    date: str,
+    design: Controller,
+    about: str,
+) -> tuple[str, ...]:
     lines = [f"PID controller, law {law}, called every h = {h!r} {unit}"]
-    lines += [f"design  {controller!r}", f"time    in {unit}; gains in units of output over units of PV"]
+    lines += [f"for     {about}"] if about else []
+    lines += [f"design  {design!r}"]
+    lines += [f"typed   {controller!r}"] if controller != design else []
+    lines += [f"time    in {unit}; gains in units of output over units of PV"]
     if plant:
         loop = Loop(plant, controller)
-        lines.append(f"plant   {plain(plant)}")
-        lines.append(
-            f"Ms      {number(margins(loop).Ms)} as designed, {number(sampled_margins(loop, h, law).Ms)} sampled"
-        )
+        peaks = {"as designed": margins(Loop(plant, design)).Ms}
+        peaks |= {"as typed": margins(loop).Ms} if controller != design else {}
+        peaks |= {"sampled": sampled_margins(loop, h, law).Ms}
+        lines += [f"plant   {plain(plant)}"]
+        lines += ["Ms      " + ", ".join(f"{number(Ms)} {which}" for which, Ms in peaks.items())]
     lines += [f"made    {date} by SIMC" if date else "made by SIMC"]
-    lines += ["Start it in manual with u_manual = the output the plant is at; gains may be changed at any time."]
+    lines += ["Start it in manual with u_manual = the output the plant is at.", "Gains may be changed at any time."]
     return tuple(line.replace("–", "not stable") for line in lines)
 
 
