@@ -127,9 +127,31 @@ def test_a_pinned_design_stays_what_it_was_and_is_drawn_and_listed():
     values = table.set_index("quantity")
     assert values.loc["τc", "A"] == "7"
     assert values.loc["τc", "present"] == "20"
-    assert float(values.loc["Kp", "A"]) == pytest.approx(0.5714)
+    assert float(values.loc["Kc", "A"]) == pytest.approx(0.5714)
     app.button(key="unpin_0").click().run()
     assert "pins" not in address(app)
+
+
+@pytest.mark.parametrize(
+    ("form", "rows"),
+    [
+        ("series", {"Kc": "2.222", "τI": "20", "τD": "0"}),  # SIMC of e^{-3s}/(20 s + 1), tau_c = 6: 20/9
+        ("ideal", {"Kc": "2.222", "τI": "20", "τD": "0"}),
+        ("parallel", {"Kp": "2.222", "Ki": "0.1111", "Kd": "0"}),
+    ],
+)
+def test_the_comparison_is_in_the_form_that_is_chosen(form, rows):
+    table = tuned("Compare", "exp(-3s)/(20s+1)", tau_c="6", form=form).dataframe[0].value
+    found = dict(zip(table["quantity"], table["present"], strict=True))
+    assert found | rows == found
+    assert not ({"Kc", "Kp"} - set(rows)) & set(found)
+
+
+def test_pure_integral_action_is_compared_as_such():
+    """e^{-s} with tau_c = 1: K_I = 1/2."""
+    table = tuned("Compare", "exp(-s)").dataframe[0].value
+    found = dict(zip(table["quantity"], table["present"], strict=True))
+    assert (found["KI"], found["Kc"]) == ("0.5", "–")
 
 
 def test_four_designs_are_enough():

@@ -26,7 +26,8 @@ def my_plant() -> None:
         tune = button.form_submit_button("Tune", type="primary", width="stretch")
     st.caption(
         "Dead time exact, negative gain, integrators and unstable poles included; a decimal comma is understood. "
-        "Without a transfer function: the page *Plant* takes gain, dead time and time constants one by one."
+        "Without a transfer function: *Plant* takes gain, dead time and time constants one by one, *From data* a recorded "
+        "step test."
     )
     if tune:
         try:
