@@ -11,7 +11,8 @@ from simc_core.studies.tuned import reduced
 
 header.show("half_rule")
 with explain_refusal():
-    told, judged = st.columns(2, gap="medium")
+    with st.container(key="stack_half_rule"):
+        told, judged = st.columns(2, gap="medium")
     with told:
         reduction_view.choices()
         plant, tuning = state.plant(), state.tuning()
