@@ -17,7 +17,7 @@ with explain_refusal():
         reduction_view.choices()
         plant, tuning = state.plant(), state.tuning()
         with st.spinner("Reducing the plant"):
-            reduction = reduced(plant, tuning.order, tuning.h, tuning.rules)
+            reduction = reduced(plant, tuning.order, tuning.h, tuning.rules, tuning.tau_F)
         reduction_view.story(reduction)
     with judged:
         reduction_view.budget(reduction)

@@ -22,6 +22,7 @@ from simc_core.identification.parameters import natural
 from simc_core.identification.trend import MOST_SAMPLES, Trend, check_trend
 
 MOST_TRENDS = 20
+ON_SETPOINT = 0.03  # share of the moves
 BELIEVED = 1e-4  # of the response: deviations below are not believed
 
 
@@ -162,7 +163,7 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
         residuals=residuals,
         predicted=problem.y - residuals,
         fit=share,
-        verdicts=verdicts(found, width, moves, share),
+        verdicts=(*_follows(trends, parameters, bias), *verdicts(found, width, moves, share)),
         slope=_slope(names, values, covariance),
         gains=moves,
         noise=found.noise.sigma,
@@ -170,6 +171,19 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
         criterion=np.nan,
         estimate=found,
     )
+
+
+def _follows(trends: list[Trend], parameters: Mapping[str, float], bias: Array) -> list[str]:
+    """A warning where PV comes to rest on the values of OP themselves, as it does on a set point."""
+    if abs(parameters.get("k", 0.0) - 1) > ON_SETPOINT:
+        return []
+    for one, level in zip(trends, bias.tolist(), strict=True):
+        if abs(level - one.u[0]) > ON_SETPOINT * float(np.ptp(one.u)):
+            return []
+    return [
+        "PV comes to rest on the very values taken for OP: are they the set point? Then this is the model of a closed "
+        "loop, not of the process, and no settings follow from it."
+    ]
 
 
 def _intervals(names: list[str], values: Array, errors: Array, width: float) -> dict[str, tuple[float, float]]:

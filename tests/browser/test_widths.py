@@ -11,7 +11,7 @@ SITE = "unit=min&PV_unit=%C2%B0C&OP_unit=%25"
 CUT = """() => {
     const roots = [document, ...[...document.querySelectorAll('*')].map(e => e.shadowRoot).filter(Boolean)];
     const all = selector => roots.flatMap(root => [...root.querySelectorAll(selector)]).filter(e => e.clientWidth);
-    const names = ['button', 'small', '.settings', '.now', '[data-testid=stMain] [data-testid=stWidgetLabel]', 'h1', 'h2', 'h3'];
+    const names = ['button', 'small', '.settings', '.now', '[data-testid=stMain] [data-testid=stWidgetLabel]', 'h2'];
     const wide = all(names.join(', ')).filter(e => e.scrollWidth > e.clientWidth + 1);
     const beyond = all('[data-testid=stMain] [data-testid=stButtonGroup] button').filter(button => {
         const place = button.closest('[data-testid=stElementContainer]').getBoundingClientRect();

@@ -6,6 +6,7 @@ import streamlit as st
 
 from pages.common.parts.copyable import copyable
 from pages.common.parts.foreign_text import exact, told
+from pages.common.parts.structures import told_of
 from pages.common.parts.units import time_text
 from pages.common.session import project, state
 from pages.common.session.design import Design
@@ -18,7 +19,7 @@ from simc_core.plants.plant import Plant
 GROUPS = {
     "Start": {"home": "Home"},
     "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
-    "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
+    "Tune": {"tuning": "Tuning", "rules": "Rules", "cascade": "Cascade"},
     "Use": {"take_home": "Take home"},
     "Learn": {"accuracy": "Accuracy"},
 }
@@ -48,7 +49,8 @@ def show(place: str) -> Design:
         else:
             _block("G", design.plant)
             theta = time_text(design.plant.theta, design.sheet)
-            st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content")
+            about = told_of(design.origin) if design.origin else None
+            st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content", help=about)
         if place in CHAIN:
             chain(place)
     _notices()

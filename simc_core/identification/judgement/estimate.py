@@ -13,6 +13,7 @@ from simc_core.identification.judgement.noise import Noise, noise_of
 
 MARGIN = 2.0  # of the criterion, for each parameter of drift and start
 WORSE = 2.0  # times the deviation, at which what is not plausible is taken after all
+OFTEN = 0.3  # moves of OP for each sample, from where it moves all the time
 BEFORE = 4  # samples before the first move from which an unsettled start can be told
 
 
@@ -63,7 +64,7 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
         Whether there is a drift; None: weighed.
     """
     drifts = [True] if structure.integrating else [drift] if drift is not None else [True, False]
-    begun = all(np.count_nonzero(record.t < record.first_move) >= BEFORE for record in records)
+    begun = all(_start_shows(record) for record in records)
     startable = begun and not structure.always_free and bool(structure.lags)
     begins = [True, False] if startable else [False]
     first = fitted(structure, records, drifts[0], begins[-1], floor)
@@ -74,6 +75,11 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
                 near = [fit.point.x for fit in fits.values()]
                 fits[one, other] = continued(structure, first.problem.records, one, other, floor, near)
     return _weighed(fits, floor, step)
+
+
+def _start_shows(record: Record) -> bool:
+    """There are samples before the first move, or OP moves all the time, so that no start can be at rest."""
+    return int(np.count_nonzero(record.t < record.first_move)) >= BEFORE or record.held.s.size > OFTEN * record.t.size
 
 
 def _weighed(fits: dict[tuple[bool, bool], Fit], floor: float, step: float) -> Estimate:
