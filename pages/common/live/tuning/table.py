@@ -11,7 +11,7 @@ from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
-from pages.common.parts.settings_text import UNITS, sizes
+from pages.common.parts.settings_text import UNITS, form_shown, sizes
 from pages.common.session.design import Excitation, Tuning
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
@@ -128,10 +128,9 @@ class Subject:
 
 
 def subject_of(plant: Plant, present: Study, form: str) -> Subject:
-    """The subject of the study; a form that does not exist for this controller gives way to the parallel one."""
-    if not present.controller.has_form(form):
-        form = "parallel"
-    return Subject(plant, present.model, replace(present.tuning, tau_c=None, speed=""), form)
+    """The subject of the study, in a form that its controller has."""
+    shown = form_shown(present.controller, form)
+    return Subject(plant, present.model, replace(present.tuning, tau_c=None, speed=""), shown)
 
 
 def grid_of(subject: Subject, present: Study, excitation: Excitation, shown: float | None = None) -> Grid:
