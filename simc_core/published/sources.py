@@ -11,6 +11,7 @@ SOURCES = {
     "Journal of Process Control 14 (2004) 635-650.",
     "AH84": "K. J. Astrom and T. Hagglund: Automatic tuning of simple regulators with specifications on phase and "
     "amplitude margins. Automatica 20 (1984) 645-651.",
+    "AH95": "K. J. Astrom and T. Hagglund: PID Controllers: Theory, Design, and Tuning. 2nd edition, ISA, 1995.",
     "B17": "J. Berner: Automatic controller tuning using relay-based model identification. PhD thesis, Lund "
     "University, 2017.",
     "CC53": "G. H. Cohen and G. A. Coon: Theoretical consideration of retarded control. Transactions of the ASME 75 "
@@ -42,6 +43,7 @@ SOURCES = {
     "RMS86": "D. E. Rivera, M. Morari and S. Skogestad: Internal Model Control. 4. PID Controller Design. Industrial & "
     "Engineering Chemistry Process Design and Development 25 (1986) 252-265. "
     "https://doi.org/10.1021/i200032a041",
+    "S72": "C. L. Smith: Digital Computer Process Control. Intext Educational Publishers, 1972.",
     "SCH97": "H. M. Schaedel: A new method of direct PID controller design based on the principle of cascaded damping "
     "ratios. Proceedings of the European Control Conference, 1997.",
     "SG12": "S. Skogestad and C. Grimholt: The SIMC Method for Smooth PID Controller Tuning. Chapter 5 in R. Vilanova "

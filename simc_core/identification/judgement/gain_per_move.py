@@ -8,13 +8,13 @@ from simc_core.identification.estimator.fit import Fit, fitted
 from simc_core.identification.estimator.held_input import Array, HeldInput, Located
 from simc_core.identification.estimator.levenberg import refined
 from simc_core.identification.estimator.problem import Problem
-from simc_core.identification.estimator.records import OFTEN
 from simc_core.identification.estimator.structures import Structure
 from simc_core.identification.judgement.covariance import covariance
 from simc_core.identification.judgement.noise import noise_of
 from simc_core.identification.moves import Move
 
 POOR = 0.9  # share below which a fit is no place to begin from
+MAINLY = 0.5  # share of all that OP moves
 AFTER = 5  # samples of a response, without which it shows nothing
 MOST = 12  # moves for which this is asked
 
@@ -60,8 +60,8 @@ def gains_per_move(fit: Fit, share: float, moves: tuple[Move, ...], floor: float
     inside = _covering(tuple(move for move in moves if changes[move.first] < seen), changes.size)
     if len(problem.records) > 1 or len(problem.structure.gains) > 1 or not 2 <= len(inside) <= MOST:
         return ()
-    if changes.size > OFTEN * record.t.size:
-        return ()
+    if sum(abs(move.size) for move in inside) < MAINLY * float(np.abs(record.held.d).sum()):
+        return ()  # OP moves all the time
     shape = _split(problem.structure, record.held, inside)
     if share < POOR:  # one gain for all did not fit: dead time and lags may be anywhere
         apart = fitted(shape, problem.records, False, False, floor)
