@@ -14,10 +14,10 @@ run: $(VENV)/run.stamp
 	else echo "Open to everybody who reaches this machine: http://$$(hostname):$(PORT). For a class see deploy/README.md"; fi
 	$(BIN)/streamlit run app.py --server.address $(HOST) --server.port $(PORT)
 
-# Browser tests last: they are the slowest, and the others say more exactly what broke.
+# Browser tests last: the others say more exactly what broke. Each worker has a server and a browser of its own.
 test: $(VENV)/dev.stamp lint chromium nginx systemd-analyze node gcc g++ avr-gcc octave
 	$(BIN)/python -m pytest tests simc_core --doctest-modules --ignore=tests/browser --ignore=tests/server/outgoing -n auto
-	$(BIN)/python -m pytest tests/browser
+	$(BIN)/python -m pytest tests/browser -n auto --dist loadgroup
 
 lint: $(VENV)/dev.stamp node_modules/.stamp
 	$(BIN)/ruff check .

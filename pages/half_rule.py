@@ -15,7 +15,7 @@ with explain_refusal():
     with told:
         reduction_view.choices()
         plant, tuning = state.plant(), state.tuning()
-        reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules)
+        reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules, tuning.tau_F)
         reduction_view.story(reduction)
     with judged:
         reduction_view.budget(reduction)

@@ -139,7 +139,32 @@ class _Forms:
 
 @dataclass(frozen=True, slots=True)
 class SeriesPid(_Forms):
-    """Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1)/(tau_F s + 1); tau_I = math.inf: no integral action."""
+    """Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1)/(tau_F s + 1); tau_I = math.inf: no integral action.
+
+    Parameters
+    ----------
+    Kc : float
+        Gain, in input units per output unit, != 0.
+    tau_I : float
+        Integral time > 0, in the user's time unit.
+    tau_D, tau_F : float
+        Derivative time and time constant of the filter, >= 0, in the user's time unit.
+    b, c : float
+        Weights of the set point in P and in D, 0 to 2.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds.
+
+    Examples
+    --------
+    The ideal form has f = 1 + tau_D/tau_I times Kc and tau_I [SG12 eq. 5.6]:
+
+    >>> from simc_core import SeriesPid
+    >>> SeriesPid(Kc=2, tau_I=8, tau_D=2).to_ideal().settings
+    {'Kc': 2.5, 'tau_I': 10.0, 'tau_D': 1.6}
+    """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("Kc", "tau_I", "tau_D")
     Kc: float
@@ -181,7 +206,32 @@ class SeriesPid(_Forms):
 
 @dataclass(frozen=True, slots=True)
 class IdealPid(_Forms):
-    """Kc (1 + 1/(tau_I s) + tau_D s)/(tau_F s + 1); tau_I = math.inf: no integral action."""
+    """Kc (1 + 1/(tau_I s) + tau_D s)/(tau_F s + 1); tau_I = math.inf: no integral action.
+
+    Parameters
+    ----------
+    Kc : float
+        Gain, in input units per output unit, != 0.
+    tau_I : float
+        Integral time > 0, in the user's time unit.
+    tau_D, tau_F : float
+        Derivative time and time constant of the filter, >= 0, in the user's time unit.
+    b, c : float
+        Weights of the set point in P and in D, 0 to 2.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds.
+
+    Examples
+    --------
+    It has a series form where tau_I >= 4 tau_D [SG12 eq. 5.7]:
+
+    >>> from simc_core import IdealPid
+    >>> IdealPid(Kc=2.5, tau_I=10, tau_D=1.6).to_series().settings
+    {'Kc': 2.0, 'tau_I': 8.0, 'tau_D': 2.0}
+    """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("Kc", "tau_I", "tau_D")
     Kc: float
@@ -236,7 +286,28 @@ class IdealPid(_Forms):
 
 @dataclass(frozen=True, slots=True)
 class ParallelPid(_Forms):
-    """(Kp + Ki/s + Kd s)/(tau_F s + 1); not all three may be zero."""
+    """(Kp + Ki/s + Kd s)/(tau_F s + 1); not all three may be zero.
+
+    Parameters
+    ----------
+    Kp, Ki, Kd : float
+        Gains, in input units per output unit: Ki per time unit, Kd times the time unit.
+    tau_F : float
+        Time constant of the filter, >= 0, in the user's time unit.
+    b, c : float
+        Weights of the set point in P and in D, 0 to 2.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds, or all gains are zero.
+
+    Examples
+    --------
+    >>> from simc_core import ParallelPid
+    >>> ParallelPid(Kp=2, Ki=0.25, Kd=4).to_ideal().settings
+    {'Kc': 2.0, 'tau_I': 8.0, 'tau_D': 2.0}
+    """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("Kp", "Ki", "Kd")
     Kp: float
@@ -291,7 +362,21 @@ class ParallelPid(_Forms):
 
 @dataclass(frozen=True, slots=True)
 class IController(_Forms):
-    """K_I/s, the SIMC controller of pure dead time [SK03 Table 1]."""
+    """K_I/s, the SIMC controller of pure dead time [SK03 Table 1].
+
+    Parameters
+    ----------
+    K_I : float
+        Gain, in input units per output unit and time, != 0.
+
+    Examples
+    --------
+    K_I = 1/(k (tau_c + theta)):
+
+    >>> from simc_core import FirstOrderDelay, IController, simc
+    >>> simc(FirstOrderDelay(k=1, theta=1, tau1=0)) == IController(K_I=1 / (1 * (1 + 1)))
+    True
+    """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("K_I",)
     OPTIONAL: ClassVar[tuple[str, ...]] = ()

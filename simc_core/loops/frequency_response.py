@@ -15,7 +15,18 @@ MOST_FREQUENCIES = 1_000_000  # of one call, about 0.1 s
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrequencyResponse:
-    """Arrays of shape (n,): omega in rad per time unit, the others complex."""
+    """Transfer functions of a loop at given frequencies.
+
+    Attributes
+    ----------
+    omega : np.ndarray, shape (n,)
+        Frequencies, in rad per time unit.
+    L, S, T : np.ndarray, shape (n,), complex
+        G C, 1/(1 + L) and L/(1 + L).
+    KS, GS : np.ndarray, shape (n,), complex
+        C S, from noise to input, in input units per output unit; G S, from load to output, in output units per input
+        unit.
+    """
 
     omega: np.ndarray
     L: np.ndarray

@@ -85,6 +85,15 @@ def robust_region(plant: Plant, tau_I: ArrayLike, Ms: float) -> tuple[np.ndarray
     ------
     InvalidParameter
         Ms <= 1, or a tau_I out of bounds.
+
+    Examples
+    --------
+    With tau_I = 8 a first-order plant is an integrator under a gain: Ms = 1.59 at Kc = 4 [SK03]:
+
+    >>> from simc_core import Plant, robust_region
+    >>> low, high = robust_region(Plant(1, 1, (8,)), [8.0], Ms=1.59)
+    >>> float(low[0]), round(float(high[0]), 2)
+    (0.0, 4.0)
     """
     M = peak_bound("Ms", Ms)
     times = np.array([checks.positive_time("tau_I", each) for each in checks.array("tau_I", tau_I, 10_000).tolist()])

@@ -24,10 +24,34 @@ from simc_core.errors import InvalidParameter
 class Plant:
     """Transfer function with exact dead time, see the module docstring.
 
-    k: gain of the part without integrators, in output units per input unit (per time^n).
-    theta: dead time >= 0.   lags, leads: time constants, != 0.   integrators: 0..4.
-    lag_pairs, lead_pairs: (tau, zeta) with tau > 0.
-    Raises InvalidParameter, also where the numerator has a higher degree than the denominator.
+    Parameters
+    ----------
+    k : float
+        Gain of the part without integrators, in output units per input unit (per time^n with n integrators), != 0.
+    theta : float
+        Dead time >= 0, in the user's time unit.
+    lags : tuple of float
+        Time constants tau_i of the denominator, != 0; tau < 0 is an unstable pole.
+    leads : tuple of float
+        Time constants T_j of the numerator, != 0; T < 0 is a zero in the right half plane.
+    integrators : int
+        Number n of poles at s = 0, 0 to 4.
+    lag_pairs, lead_pairs : tuple of (float, float)
+        (tau, zeta) of complex pairs, tau > 0.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds, or the numerator has a higher degree than the denominator.
+
+    Examples
+    --------
+    e^{-s}/((8 s + 1)(s + 1)) at omega = 0 and its poles:
+
+    >>> from simc_core import Plant
+    >>> plant = Plant(k=1, theta=1, lags=(8, 1))
+    >>> complex(plant.response(0)), plant.poles.real.tolist()
+    ((1+0j), [-0.125, -1.0])
     """
 
     k: float

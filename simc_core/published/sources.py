@@ -11,7 +11,8 @@ SOURCES = {
     "Journal of Process Control 14 (2004) 635-650.",
     "AH84": "K. J. Astrom and T. Hagglund: Automatic tuning of simple regulators with specifications on phase and "
     "amplitude margins. Automatica 20 (1984) 645-651.",
-    "AH95": "K. J. Astrom and T. Hagglund: PID Controllers: Theory, Design, and Tuning. 2nd edition, ISA, 1995.",
+    "AH95": "K. J. Astrom and T. Hagglund: PID Controllers: Theory, Design, and Tuning. 2nd edition, Instrument "
+    "Society of America, 1995.",
     "B17": "J. Berner: Automatic controller tuning using relay-based model identification. PhD thesis, Lund "
     "University, 2017.",
     "CC53": "G. H. Cohen and G. A. Coon: Theoretical consideration of retarded control. Transactions of the ASME 75 "

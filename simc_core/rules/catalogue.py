@@ -37,7 +37,7 @@ def _anywhere(model: Model, kind: str, knob: float | None) -> bool:
 class Rule:
     """A tuning rule.
 
-    Parameters
+    Attributes
     ----------
     key : str
         Its name in RULES.

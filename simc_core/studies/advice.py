@@ -27,14 +27,14 @@ from simc_core.reduction.explanation import of_orders
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.bands import exceeds
-from simc_core.studies.remedies import TIGHT, calmer, filter_that_costs_little
+from simc_core.studies.remedies import calmer, filter_that_costs_little, tight
 from simc_core.studies.tuned import Tuned
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
 SLOW_INTEGRATING = 8.0  # tau_c/theta of the "moderate" choice [V06 eq. 7]; an integrating plant has no time of its own
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4
-ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
+LIMIT_ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
 LEVELS = ("error", "warning", "note")
 BY_MODEL = {
     DoubleIntegratingDelay: "Two integrators need derivative action: the rule for this plant is a PID.",
@@ -102,18 +102,19 @@ def large_Ms(of: Tuned) -> Advice | None:
 
 
 def faster_than_dead_time(of: Tuned) -> Advice | None:
-    """tau_c < theta, where it costs robustness."""
-    theta, tau_c = of.model.theta, of.tau_c
-    if tau_c >= theta * (1 - ROUNDING) or not of.margins.stable:
+    """tau_c shorter than the rule has it, where that costs robustness."""
+    usual, tau_c, change = of.usual_tau_c, of.tau_c, tight(of)
+    if not of.model.theta or tau_c >= usual * (1 - LIMIT_ROUNDING) or not of.margins.stable:
         return None
-    tight = of.at(theta)
-    if not tight.margins.Ms < of.margins.Ms:
+    calm = of.at(usual).margins.Ms
+    if not calm < of.margins.Ms:
         return None
+    name = "theta/2" if of.rule == "isimc" else "theta"
     text = (
-        f"This is faster than the tight setting tau_c = theta. Ms is {number(of.margins.Ms, 3)}, "
-        f"with tau_c = theta it is {number(tight.margins.Ms, 3)}."
+        f"This is faster than the tight setting tau_c = {name}. Ms is {number(of.margins.Ms, 3)}, "
+        f"with tau_c = {name} it is {number(calm, 3)}."
     )
-    return Advice("note", "tau_c", text, tau_c, theta, True, "Take tau_c = theta.", TIGHT)
+    return Advice("note", "tau_c", text, tau_c, usual, True, f"Take tau_c = {name}.", change)
 
 
 def slower_than_plant(of: Tuned) -> Advice | None:
@@ -121,7 +122,7 @@ def slower_than_plant(of: Tuned) -> Advice | None:
     if isinstance(of.model, UnstableDelay):
         return None
     limit = slowest_useful(of.plant, of.model)
-    if not of.tau_c > limit * (1 + ROUNDING):
+    if not of.tau_c > limit * (1 + LIMIT_ROUNDING):
         return None
     if of.plant.integrators:
         worse = load_error(of.controller) / load_error(of.at(of.model.theta).controller)
@@ -179,7 +180,7 @@ def oscillating_plant(of: Tuned) -> Advice | None:
 def order_two(of: Tuned) -> Advice | None:
     """Whether derivative action pays, by the load errors at equal Ms."""
     orders = of.reduction.orders
-    if orders is None or math.isnan(orders.ratio):
+    if orders is None or math.isnan(orders.ratio) or of.rule != "simc":
         return None
     derivative = delivered(of.controller) == "PID"
     if orders.second_pays and of.order == 1:
@@ -192,7 +193,7 @@ def order_two(of: Tuned) -> Advice | None:
 def other_than_chosen(of: Tuned) -> Advice | None:
     """PI chosen and PID delivered, or the reverse."""
     chosen, got = ("PI", "PID")[of.order - 1], delivered(of.controller)
-    if chosen == got:
+    if chosen == got or of.rule != "simc":
         return None
     quantity = f"{chosen} chosen, {got} delivered"
     if got == "I":
@@ -251,7 +252,7 @@ def slow_oscillation(model: Model, controller: Controller) -> Advice | None:
     if series.tau_I >= tau1 or series.tau_I == math.inf:
         return None
     product = series.Kc * slope * series.tau_I
-    if product >= SLOW_LIMIT * (1 - ROUNDING) or product < 0:
+    if product >= SLOW_LIMIT * (1 - LIMIT_ROUNDING) or product < 0:
         return None
     Kc = SLOW_LIMIT / (slope * series.tau_I)
     text = "The gain is too low for so short an integral time: slow oscillation."

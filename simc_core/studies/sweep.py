@@ -21,7 +21,7 @@ from simc_core.metrics.performance import both_steps
 from simc_core.metrics.step_metrics import measures
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
-from simc_core.rules.simc import simc
+from simc_core.rules.simc_family import settings_of
 from simc_core.sensitivity.margins import margins_many
 from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share, too_much
 from simc_core.simulation.one_delay.march import march
@@ -39,9 +39,26 @@ METRICS = ("IAE_setpoint", "IAE_disturbance", "TV_setpoint", "TV_disturbance", "
 class Sweep:
     """n tunings of one plant. Margins and metrics are nan where the loop is not stable.
 
-    tau_c, stable, GM ... overshoot: (n,), as in Margins and Performance; overshoot of the set-point step.
-    y_setpoint, u_setpoint, y_disturbance, u_disturbance: (n, len(t)), of height 1, right-hand limits at jumps.
-    L: (n, len(omega)), complex.
+    Attributes
+    ----------
+    tau_c : np.ndarray, shape (n,)
+        Closed-loop time constants, in the user's time unit.
+    controllers : tuple of controllers, n of them
+        Their settings.
+    t, omega : np.ndarray, shape (m,), (p,)
+        Instants, in the user's time unit, and frequencies, in rad per time unit.
+    y_setpoint, u_setpoint, y_disturbance, u_disturbance : np.ndarray, shape (n, m)
+        Responses to set point and load of height 1, right-hand limits at jumps.
+    L : np.ndarray, shape (n, p), complex
+        Loop transfer functions.
+    stable : np.ndarray of bool, shape (n,)
+        Whether each loop is.
+    GM, GM_lower, PM_deg, delay_margin, Ms, Mt : np.ndarray, shape (n,)
+        As in Margins.
+    IAE_setpoint, IAE_disturbance, TV_setpoint, TV_disturbance : np.ndarray, shape (n,)
+        As in StepMetrics.
+    overshoot : np.ndarray, shape (n,)
+        Of the set-point step, as a fraction.
     """
 
     tau_c: np.ndarray
@@ -77,6 +94,7 @@ def sweep(
     filter_ratio: float = 0.0,
     disturbance_time: float = 0.0,
     ramps: tuple[float, float] = (0.0, 0.0),
+    rule: str = "simc",
 ) -> Sweep:
     """SIMC tunings of `model` for many tau_c at once, each in the loop round `plant`.
 
@@ -100,6 +118,8 @@ def sweep(
         When the load begins.
     ramps : tuple of float
         Times in which set point and load reach their heights, 0 for steps. Metrics are those of steps in any case.
+    rule : str
+        "simc", "improved_simc" or "isimc".
 
     Returns
     -------
@@ -109,7 +129,16 @@ def sweep(
     Raises
     ------
     InvalidParameter
-        Where `simc` does, and where `simulate` does for one of the loops.
+        Where the rule does, and where `simulate` does for one of the loops.
+
+    Examples
+    --------
+    GM = (pi/2) (tau_c + theta)/theta of a first-order model [SK03], here for tau_c = theta and 2 theta:
+
+    >>> from simc_core import FirstOrderDelay, Plant, sweep
+    >>> found = sweep(Plant(1, 1, (8,)), FirstOrderDelay(1, 1, 8), tau_c=[1, 2], t=[0, 1, 2], omega=[0.1, 1])
+    >>> found.GM.round(4).tolist(), found.y_setpoint.shape, found.L.shape
+    ([3.1416, 4.7124], (2, 3), (2, 2))
     """
     speeds, times, at = _tau_c(tau_c), instants(t), at_frequencies(omega)
     values = len(speeds) * (4 * len(times) + 2 * len(at))
@@ -117,7 +146,9 @@ def sweep(
         raise InvalidParameter(
             f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, got {values}"
         )
-    controllers = tuple(simc(model, each).with_filter(filter_ratio).with_weight(b) for each in speeds.tolist())
+    controllers = tuple(
+        settings_of(rule, model, each).with_filter(filter_ratio).with_weight(b) for each in speeds.tolist()
+    )
     loops = [Loop(plant, controller) for controller in controllers]
     found = margins_many(loops)
     stable = [each.stable for each in found]

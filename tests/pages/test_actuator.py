@@ -70,7 +70,7 @@ def test_heights_noise_and_sampling_have_their_words():
     app = opened(r="2", d="0", noise="0.1", sampling="1", h="1")
     assert "Set point 2 from t = 0." in texts(app)
     assert "new value every 1" in texts(app)
-    assert "(now 1), adds h/2" in texts(app)
+    assert "The half rule allows for the sampling" in texts(app)
     assert "Largest move of u" in strip(app)
 
 

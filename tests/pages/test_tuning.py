@@ -282,3 +282,27 @@ def test_a_loop_at_the_edge_of_stability_has_margins_and_no_integrals():
 )
 def test_bands_of_ms(Ms, band):
     assert band_of(Ms).tone == band
+
+
+def test_later_forms_of_SIMC_stand_beside_it():
+    """e^{-s}/(8s+1): iSIMC has 5.333, 6, 0.3333 at theta/2 [GS18], improved SIMC 25/6 and 8 [SG12]."""
+    app = tuned(plant="exp(-s)/(8s+1)")
+    app.segmented_control(key="widget_rule").set_value("isimc").run()
+    assert not app.exception
+    assert copied(app) == pytest.approx({"Kc": 16 / 3, "tau_I": 6, "tau_D": 1 / 3})
+    assert (address(app)["rule"], address(app).get("tau_c")) == ("isimc", None)
+    app.segmented_control(key="widget_rule").set_value("improved_simc").run()
+    assert copied(app) == pytest.approx({"Kc": 25 / 6, "tau_I": 8, "tau_D": 0})
+    app.segmented_control(key="controller_source").set_value("own").run()
+    assert (address(app)["controller"], address(app)["rule"]) == ("own", "improved_simc")
+    app.segmented_control(key="controller_source").set_value("simc").run()
+    app.segmented_control(key="widget_rule").set_value("simc").run()
+    assert copied(app) == pytest.approx({"Kc": 4, "tau_I": 8, "tau_D": 0})
+
+
+def test_a_later_form_that_does_not_know_the_plant_leads_back_to_SIMC():
+    app = tuned(plant="exp(-s)/s^2", rule="isimc")
+    assert "first-order one" in texts(app)
+    app.button(key="remedy_refusal").click().run()
+    assert not app.error
+    assert "rule" not in address(app)

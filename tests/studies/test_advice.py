@@ -300,3 +300,26 @@ def test_where_no_rule_is_left_the_plant_lacks_a_dead_time():
     for order in (1, 2):
         with pytest.raises(SimcError, match="enter the dead time or the lag of the actuator"):
             tuned(Plant(1 / 9.81, 0, (tau, -tau)), order)
+
+
+def test_isimc_is_tight_at_half_of_the_dead_time_and_its_remedies_stay_with_it():
+    """[GS18] has tau_c = theta/2; half of that is called fast, and the way back is the rule's own choice."""
+    assert not [item for item in advice(tuned(FOPDT, rule="isimc")) if item.quantity == "tau_c"]
+    fast = tuned(FOPDT, rule="isimc", tau_c=0.25)
+    (item,) = (item for item in advice(fast) if item.quantity == "tau_c")
+    assert "tau_c = theta/2" in item.text
+    cured = fast.changed(**item.change)
+    assert (cured.rule, cured.tau_c) == ("isimc", 0.5)
+    assert cured.margins.Ms < fast.margins.Ms
+
+
+def test_no_order_is_proposed_for_a_rule_that_has_one_kind_of_controller():
+    for rule in ("improved_simc", "isimc"):
+        for plant in (FOPDT, THREE_LAGS, Plant(1, 1)):
+            assert not [item for item in advice(tuned(plant, rule=rule)) if "order" in item.change]
+
+
+def test_a_later_form_that_does_not_know_the_model_leads_back_to_SIMC():
+    with pytest.raises(RuleEnds, match="model must be a first-order one") as refused:
+        tuned(Plant(1, 1, integrators=2), rule="isimc")
+    assert tuned(Plant(1, 1, integrators=2), **refused.value.change).margins.stable

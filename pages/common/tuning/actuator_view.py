@@ -224,10 +224,8 @@ def explained(found: AsBuilt, study: Study, design: Design) -> str:
             f"The noise takes a new value every {time_text(found.step, design.sheet)}, the step of the controller."
         )
     if found.actuation.h:
-        lines.append(
-            "The half rule can allow for the sampling: its own h, on the half rule page "
-            f"(now {number(study.tuning.h)}), adds h/2 to θ."
-        )
+        allows = "allows" if study.tuning.h else "can allow"
+        lines.append(f"The half rule {allows} for the sampling, h/2 in θ: half rule page.")
     if not actuator.on:
         lines.append("Nothing is limited yet: type a limit, noise or a sampling period above.")
     return " ".join(lines)

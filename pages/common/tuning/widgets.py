@@ -21,7 +21,8 @@ from simc_core.controllers.forms import Controller
 from simc_core.errors import FormError
 from simc_core.notation import latex, number
 from simc_core.plants.models import Model, UnstableDelay
-from simc_core.rules.simc import default_tau_c, tau_c_multiples, tau_c_presets
+from simc_core.rules.simc import default_tau_c
+from simc_core.rules.simc_family import multiples_of, presets_of, usual_tau_c
 from simc_core.studies.advice import slowest_useful
 
 STEPS_PER_DECADE = 20
@@ -83,12 +84,13 @@ def _slid(model: Model, scale: float) -> None:
 def structure() -> None:
     """PI or PID, set-point weight, derivative filter."""
     row = st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall", key="structure")
-    row.segmented_control(
-        "Controller",
-        KINDS,
-        help="PI takes the first-order model, PID the second-order one.",
-        **state.bound("order", show=lambda order: KINDS[order - 1], read=lambda shown: KINDS.index(shown) + 1),
-    )
+    if state.value("rule") == "simc":
+        row.segmented_control(
+            "Controller",
+            KINDS,
+            help="PI takes the first-order model, PID the second-order one.",
+            **state.bound("order", show=lambda order: KINDS[order - 1], read=lambda shown: KINDS.index(shown) + 1),
+        )
     under = st.container()
     design_number(
         "b",
@@ -139,11 +141,12 @@ def settings_html(controller: Controller, sheet: Sheet) -> str:
 def _presets(study: Study) -> None:
     """Multiples of theta, and the named choices of the literature; each says its tau_c."""
     with st.container(key="multiples"):
-        for factor, value in tau_c_multiples(study.model).items():
+        for factor, value in multiples_of(study.tuning.rule, study.model).items():
             name = "θ" if factor == 1 else f"{number(factor)} θ"
-            _choice(f"multiple_{number(factor)}", name, value, study, "" if factor == 1 else f"{factor:g}theta")
+            usual = math.isclose(value, usual_tau_c(study.tuning.rule, study.model), rel_tol=SAME)
+            _choice(f"multiple_{number(factor)}", name, value, study, "" if usual else f"{factor:g}theta")
     with st.expander("Choices of the literature"), st.container(key="presets"):
-        for name, value in tau_c_presets(study.model).items():
+        for name, value in presets_of(study.tuning.rule, study.model).items():
             _choice(f"preset_{name}", name, value, study, "" if name == "tight" else name)
     st.caption(model_in_use(study.model))
 

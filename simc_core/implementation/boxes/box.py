@@ -62,7 +62,7 @@ class Field:
 class Box:
     """A controller that one can buy or download.
 
-    Parameters
+    Attributes
     ----------
     key, maker, title : str
         Name in BOXES, who makes it, its name on a page.

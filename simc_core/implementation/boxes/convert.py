@@ -23,7 +23,7 @@ RATIOS = 1e-3, 1e6  # of N
 class Typed:
     """What is typed into a box, and what that makes.
 
-    Parameters
+    Attributes
     ----------
     values : mapping of str to float or str
         Numbers by the names of the box's fields; "structure" for its set-point structure, "PV filter" in seconds for a
@@ -50,6 +50,7 @@ def to_box(
     time_unit: str = "s",
     N: float | None = None,
     rounded: bool = False,
+    nearest: bool = False,
 ) -> Typed:
     """The numbers that are typed into a box for a controller.
 
@@ -67,6 +68,8 @@ def to_box(
         Ratio Td/Tf, where the box lets one choose it. None: as the design's tau_F needs it, else the box's own choice.
     rounded : bool
         To what can be typed, on the safe side: gain down, integral time up, derivative time to the nearest.
+    nearest : bool
+        A number beyond the range of the box becomes the nearest within it, with a warning, rather than a BoxError.
 
     Returns
     -------
@@ -99,7 +102,7 @@ def to_box(
     N = None if N is None else checks.real("N", N, *RATIOS)
     law, pv_filter, warnings = LAWS[box.form].forward(positive, box, N)
     action = "reverse" if sign > 0 else "direct"
-    plain = numbers(box, law, spans, rounded)
+    plain = numbers(box, law, spans, rounded, warnings if nearest else None)
     if box.sign * sign < 0:
         plain = {name: with_sign(box, name, number) for name, number in plain.items()}
     values, more = with_structure(box, plain, law)
@@ -145,6 +148,15 @@ def from_box(
     ------
     BoxError
         A field is missing, unknown, or beyond its range.
+
+    Examples
+    --------
+    A proportional band of 50 % and one minute per repeat are Kc = 2 and tau_I = 60 s:
+
+    >>> from simc_core import from_box
+    >>> pid = from_box("honeywell_udc", {"PB": 50.0, "RSET": 1.0})
+    >>> pid.Kc, pid.tau_I
+    (2.0, 60.0)
     """
     box, spans, seconds = _box(key), _spans(pv_span, out_span), _seconds(time_unit)
     if action not in ("reverse", "direct"):

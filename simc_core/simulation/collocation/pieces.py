@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
 
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 
 TINY = 1e-300  # to the left of 0
 NEAR = 1e-12  # relative to t: an instant this close below an edge is the edge, where the right-hand limit holds

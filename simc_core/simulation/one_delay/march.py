@@ -30,7 +30,7 @@ from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.one_delay.closed_element import END, PARTS, ClosedElements, Z
 from simc_core.simulation.one_delay.element_sizes import levels
 from simc_core.simulation.one_delay.limits import (
@@ -49,7 +49,7 @@ from simc_core.simulation.one_delay.unit_responses import Batch, UnitResponses, 
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
-LARGEST = 1e150  # an unstable response is cut off here
+CUT_OFF = 1e150  # an unstable response is cut off here
 
 Chosen = slice | np.ndarray  # some of the tunings, or all of them, along the first axis of an array
 
@@ -276,7 +276,7 @@ class _March:
             left = None if self.to_rest else (self.t_end - control.t) / unit
             control.lengthen(judged, middle, tail, control.t / unit, left)
             # what is asked for at t_end is the right-hand limit
-            if self._rests(i, size) if self.to_rest else control.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
+            if self._rests(i, size) if self.to_rest else control.t > self.t_end * (1 + 1e-12) or not size < CUT_OFF:
                 del self.active[i]
 
     def _rests(self, i: int, away: float) -> bool:

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.simulation.collocation.elements import TO_CHEBYSHEV, P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
+from simc_core.simulation.collocation.elements import TO_CHEBYSHEV
 from simc_core.simulation.collocation.pieces import NEAR, Pieces, chebyshev_basis
 
 

@@ -72,5 +72,5 @@ def _for_Ms(subject: table.Subject, typed: str) -> float:
     limit = read_number("Ms", typed)
     if isinstance(subject.model, UnstableDelay):
         raise InvalidParameter("tau_c cannot be sought for an Ms here: the rule of an unstable pole knows one tau_c")
-    low, high, *_ = table.bounds(subject.model)
+    low, high, *_ = table.bounds(subject)
     return smallest(lambda tau_c: margins(subject.loop(tau_c)).Ms, limit, low, high)
