@@ -45,6 +45,14 @@ def gain(name: str, value) -> float:
     return magnitude(name, value, LARGEST_GAIN)
 
 
+def positive(name: str, value) -> float:
+    """A gain > 0."""
+    number = gain(name, value)
+    if number < 0:
+        raise InvalidParameter(f"{name} must be > 0, got {number:g}")
+    return number
+
+
 def time_constant(name: str, value) -> float:
     """A nonzero time constant of either sign."""
     return magnitude(name, value, LONGEST_TIME)

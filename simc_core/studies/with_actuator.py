@@ -16,8 +16,10 @@ from simc_core.simulation.actuator.actuation import SAME, STEPS, Actuation, Inpu
 from simc_core.simulation.actuator.continuous import actuated
 from simc_core.simulation.horizon import times
 from simc_core.simulation.simulate import on_grid
+from simc_core.studies.limit_cycle import LimitCycle, limit_cycle
 
 MOST_DOUBLINGS = 3
+FOR_SWINGS = 1  # doublings at least of an actuator that may keep up a swing: it is small and slow
 MANY_STEPS = 2 * STEPS  # a course of more has a step that does not grow with the horizon, and is not doubled
 STILL = 0.02  # a response that moves less than this part of its range over the last fifth has come to rest
 FINE = 4000  # instants for the integral of the linear |e|: trapezoids, good to 1e-5
@@ -30,6 +32,7 @@ class BuiltNumbers:
     limited: time at a limit.   IAE, IAE_linear: over the horizon, without noise in r - y.   largest_move: of u between
     two samples after the first one, nan for a continuous controller.
     noise_y, noise_u: standard deviation over the horizon of what the noise adds to y and u; 0 without noise.
+    cycle: that the actuator keeps up, without noise; None where there is none, or the actuator does what it is told.
     """
 
     u_asked: tuple[float, float]
@@ -40,6 +43,7 @@ class BuiltNumbers:
     largest_move: float
     noise_y: float
     noise_u: float
+    cycle: LimitCycle | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,8 +94,9 @@ def _long_enough(loop: Loop, scenario: Scenario, quiet: Actuation, stable: bool)
     course = actuated(loop, quiet, inputs)
     if scenario.t_end is not None or scenario.disturbance_time is not None or not stable:
         return inputs, course
-    for _ in range(MOST_DOUBLINGS):
-        if _at_rest(course, inputs) or len(course.y) > MANY_STEPS:
+    for doublings in range(MOST_DOUBLINGS):
+        seen = doublings >= FOR_SWINGS or not quiet.mechanical
+        if (seen and _at_rest(course, inputs)) or len(course.y) > MANY_STEPS:
             break
         inputs = replace(inputs, disturbance_time=2 * inputs.disturbance_time, t_end=2 * inputs.t_end)
         course = actuated(loop, quiet, inputs)
@@ -126,7 +131,10 @@ def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuat
     whole = time > SAME * inputs.t_end  # less than that is rounding, of a step that begins with the end
     time = time[whole]
     e = np.abs(np.stack([inputs.r(course.t[:-1]), inputs.r(course.t[1:])], axis=1) - course.y)[whole]
-    held = np.abs(noisy.v - noisy.u)[whole] > SAME * np.max(np.abs(noisy.u))
+    beyond = np.abs(noisy.v - np.clip(noisy.v, actuation.u_min, actuation.u_max))[whole]
+    held = beyond > SAME * np.max(np.abs(noisy.u))
+    begin = inputs.disturbance_time + inputs.disturbance_ramp
+    cycle = limit_cycle(course.t[:-1][whole], course.y[whole, 0], begin) if actuation.mechanical else None
     moves = np.abs(np.diff(noisy.u[whole, 0])) if actuation.h else np.array([math.nan])
     return BuiltNumbers(
         (float(noisy.v[whole].min()), float(noisy.v[whole].max())),
@@ -137,4 +145,5 @@ def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuat
         float(moves.max(initial=0.0)),
         float(np.std((noisy.y - course.y)[whole, 1])),
         float(np.std((noisy.u - course.u)[whole, 1])),
+        cycle,
     )

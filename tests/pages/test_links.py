@@ -91,6 +91,9 @@ excitations = st.builds(
     load_time=st.none() | times,
     setpoint_ramp=st.just(0.0) | times,
     disturbance_ramp=st.just(0.0) | times,
+    setpoint_low=st.none() | st.floats(-10, 0),
+    setpoint_high=st.none() | st.floats(0, 10),
+    setpoint_rate=st.none() | times,
 )
 actuators = st.builds(
     Actuator,
@@ -99,6 +102,10 @@ actuators = st.builds(
     tracking_time=st.none() | times,
     noise=st.just(0.0) | times,
     seed=st.integers(0, 2**32 - 1),
+    resolution=st.just(0.0) | times,
+    dead_band=st.just(0.0) | times,
+    backlash=st.just(0.0) | times,
+    rate_limit=st.none() | times,
     h=st.just(0.0) | times,
 )
 homes = st.builds(

@@ -42,7 +42,8 @@ class Actuation:
     tracking_time: T_t, None for the default, math.inf for no anti-windup; shorter than a step of the controller it
     acts like that step.   noise: standard deviation of the measurement noise, a new value each step of the controller.
     seed: of the noise.   h: sampling period of the controller, 0 if continuous.   law: of a sampled controller, one of
-    controllers.discrete.LAWS.
+    controllers.discrete.LAWS.   resolution, dead_band, backlash: of the actuator, in units of u, 0 for none.
+    rate_limit: the largest |du/dt|, infinite for none. See mechanism.py.
     """
 
     u_min: float = -math.inf
@@ -52,6 +53,10 @@ class Actuation:
     seed: int = 0
     h: float = 0.0
     law: str = "backward"
+    resolution: float = 0.0
+    dead_band: float = 0.0
+    backlash: float = 0.0
+    rate_limit: float = math.inf
 
     def __post_init__(self):
         put = object.__setattr__
@@ -66,6 +71,10 @@ class Actuation:
         put(self, "seed", checks.whole("seed", self.seed, 0, 2**32 - 1))
         put(self, "h", checks.optional_time("h", self.h))
         known_law(self.law)
+        for name in ("resolution", "dead_band", "backlash"):
+            put(self, name, checks.real(name, getattr(self, name), 0.0, checks.LARGEST_GAIN))
+        if self.rate_limit != math.inf:
+            put(self, "rate_limit", checks.positive("rate_limit", self.rate_limit))
 
     @property
     def limited(self) -> bool:
@@ -73,9 +82,14 @@ class Actuation:
         return self.u_min > -math.inf or self.u_max < math.inf
 
     @property
+    def mechanical(self) -> bool:
+        """Whether the actuator does something else than it is told, within its limits."""
+        return bool(self.resolution or self.dead_band or self.backlash) or self.rate_limit < math.inf
+
+    @property
     def linear(self) -> bool:
         """Whether the exact engine of linear loops does the same."""
-        return not self.limited and self.noise == 0 and self.h == 0
+        return not self.limited and not self.mechanical and self.noise == 0 and self.h == 0
 
 
 def rest_within(u_min: float, u_max: float) -> None:

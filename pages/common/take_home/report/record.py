@@ -182,7 +182,7 @@ def _signals(sheet: Sheet) -> list[Row]:
 
 def _asked(design: Design) -> str:
     asked, sheet = design.excitation, design.sheet
-    said = [f"set point {number(asked.setpoint)} {sheet.PV_unit}".rstrip()]
+    said = [f"set point {number(asked.reached)} {sheet.PV_unit}".rstrip()]
     said += [f"then load {number(asked.disturbance)} {sheet.OP_unit}".rstrip()]
     ends = (("from", design.actuator.u_min), ("to", design.actuator.u_max))
     limits = [f"{word} {number(sheet.on_scale(u))}" for word, u in ends if u is not None]
