@@ -11,13 +11,14 @@ from pages.common.take_home import view as take_home
 from pages.common.take_home.code import code
 from pages.common.take_home.report_view import report_view
 from pages.common.take_home.schedule import schedule
-from simc_core import BoxError
+from pages.common.take_home.way_out import way_out
+from simc_core.errors import BoxError, FormError
 
 VIEWS = ("Settings", "Code", "Schedule", "Report")
 
 
 def in_the_box(design: Design, present: Study) -> None:
-    """What is typed, the proof, what to mind."""
+    """What is typed, the proof, what to mind; or what can be done where the box has no such form."""
     if not design.box:
         st.info(
             "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
@@ -26,6 +27,9 @@ def in_the_box(design: Design, present: Study) -> None:
         return
     try:
         found = take_home.numbers(design, present)
+    except FormError as error:
+        way_out(design, present, error)
+        return
     except BoxError as error:
         take_home.refused(design, present, error)
         return

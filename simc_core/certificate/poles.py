@@ -35,16 +35,25 @@ CHAIN_STEPS = 3
 FAR_LEFT = -(2.0 ** np.arange(0.0, 6.0, 0.25))  # theta s of real poles that the discretisation has not resolved
 ABOUT = 8  # turns on either side of a resonance
 BESIDE = 1e-6 * (1 + 1j)  # relative distance from an open-loop pole, on which L is infinite
-SETTLED = 1e-12
+LAST_STEP = 1e-12  # of Newton, relative
 APART = 1e-6  # relative, of the real parts of two poles between which there is room for the axis
-SAME = 1e-14  # relative, of coefficients that were the same before they were rounded
+SAME_COEFFICIENT = 1e-14  # relative, of coefficients that were the same before they were rounded
 
 
 @dataclass(frozen=True, slots=True)
 class ClosedLoopPole:
-    """s: the pole, Im s >= 0 (its conjugate is implied). zeta = -Re s/abs(s), omega_n = abs(s); zeta 0 at the origin.
+    """A pole of the closed loop; of a complex pair the one above the real axis.
 
-    cancelled: a zero of the controller hides it from the set-point response; a load disturbance excites it.
+    Attributes
+    ----------
+    s : complex
+        The pole, in rad per time unit, Im s >= 0.
+    zeta : float
+        -Re s/abs(s); 0 at the origin.
+    omega_n : float
+        abs(s), in rad per time unit.
+    cancelled : bool
+        A zero of the controller hides it from the set-point response; a load disturbance excites it.
     """
 
     s: complex
@@ -70,6 +79,15 @@ def dominant_poles(loop: Loop, most: int = 8) -> tuple[ClosedLoopPole, ...]:
     -------
     tuple of ClosedLoopPole
         In rad per time unit.
+
+    Examples
+    --------
+    Poles under L = e^{-s}/(2 s) solve s e^s = -1/2: Lambert's W. The lag that the controller cancels is one too:
+
+    >>> from simc_core import Loop, Plant, SeriesPid, dominant_poles
+    >>> cancelled, slowest = dominant_poles(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)), most=2)
+    >>> cancelled.s, complex(round(slowest.s.real, 6), round(slowest.s.imag, 6))
+    ((-0.125+0j), (-0.794024+0.770112j))
     """
     L = loop.L
     if L.relative_degree < 0:
@@ -159,7 +177,7 @@ def _without_common(L: Factored) -> tuple[Factored, np.ndarray]:
 
 
 def _same(one: list[float], other: list[float]) -> bool:
-    return all(abs(a - b) <= SAME * abs(b) for a, b in zip(one, other, strict=True))
+    return all(abs(a - b) <= SAME_COEFFICIENT * abs(b) for a, b in zip(one, other, strict=True))
 
 
 def _polished(L: Factored, start: np.ndarray) -> list[complex]:
@@ -171,7 +189,7 @@ def _polished(L: Factored, start: np.ndarray) -> list[complex]:
             step = (1 + value) / (value * slope)
             kept = np.isfinite(s - step)
             s, step = (s - step)[kept], step[kept]
-            settled = np.abs(step) <= (SETTLED if left else 1e-9) * np.abs(s)
+            settled = np.abs(step) <= (LAST_STEP if left else 1e-9) * np.abs(s)
             found.append(s[settled])
             s = s[~settled]
     s = np.concatenate(found)

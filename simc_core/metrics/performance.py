@@ -12,6 +12,7 @@ more than limits.MOST_TO_REST elements to come to rest is too close to its stabi
 
 import math
 from dataclasses import dataclass, replace
+from typing import overload
 
 import numpy as np
 
@@ -27,20 +28,30 @@ from simc_core.simulation.collocation.pieces import ENDS
 from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.simulate import settled
 
-OFFSET = 1e-7
-KNOWN = 1e-6  # relative, of an integral
-ROUNDING = 1e-12  # of the largest y, that a march leaves in y
+LARGEST_OFFSET = 1e-7  # of the largest value: with more at rest the integrals diverge
+INTEGRAL_PRECISION = 1e-6  # relative, of an integral
+MARCH_ROUNDING = 1e-12  # of the largest y, that a march leaves in y
 TINY = 1e-300
 
 
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """Unit step of the set point, and of the disturbance at the plant input."""
+    """What is measured on the steps of a single loop.
+
+    Attributes
+    ----------
+    setpoint, disturbance : StepMetrics
+        Unit step of the set point, and of the disturbance at the plant input.
+    """
 
     setpoint: StepMetrics
     disturbance: StepMetrics
 
 
+@overload
+def performance(loop: Loop) -> Performance: ...
+@overload
+def performance(loop: CascadeLoop | NestedLoops) -> NestedPerformance: ...
 def performance(loop: Loop | CascadeLoop | NestedLoops) -> Performance | NestedPerformance:
     """IAE, overshoot, settling time and the like, of unit steps of set point and load; the dead time is exact.
 
@@ -91,13 +102,14 @@ def _of_single(loop: Loop) -> Performance:
     right = np.add.reduce(course.coefficients[0], axis=-1)
     offsets, largest = right[:, -1] - (1.0, 0.0), np.maximum.reduce(np.abs(right), axis=1)
     for name, offset, size in zip(("set-point", "load"), offsets.tolist(), largest.tolist(), strict=True):
-        if abs(offset) > OFFSET * max(size, 1e-300):
+        if abs(offset) > LARGEST_OFFSET * max(size, 1e-300):
             raise NotStable(f"IAE needs a loop that settles without offset, got {-offset:.4g} after a {name} step")
     found = metrics_of(both_steps(course))
     tails = [_Tail(each, course, source) for source, each in enumerate(found)]
     if not _no_mode_is_slower(loop, max(tail.negligible_rate() for tail in tails)):
         poles = dominant_poles(loop, most=1)
-        found = [tail.added(poles[0].s) for tail in tails] if poles else found
+        if poles:
+            found = tuple(tail.added(poles[0].s) for tail in tails)
     return Performance(*found)
 
 
@@ -116,12 +128,12 @@ class _Tail:
         self.found, self.length = found, float(course.length[-1])
         self.T = float(course.begin[-1]) + self.length
         self.left, self.right = (course.coefficients[0, source, -1] @ ENDS.T - (1.0, 0.0)[source]).tolist()
-        self.rounding = ROUNDING * abs(found.peak)
+        self.rounding = MARCH_ROUNDING * abs(found.peak)
         self.largest = max(abs(self.left), abs(self.right))
 
     def negligible_rate(self) -> float:
         """A mode that decays at this rate, or faster, adds less than is known of any integral."""
-        rest = (self.largest + self.rounding) / KNOWN
+        rest = (self.largest + self.rounding) / INTEGRAL_PRECISION
         if not rest:
             return 0.0
         slowest = (math.sqrt(self.T**2 + 4 * self.found.ITAE / rest) - self.T) / 2  # T x + x^2 = ITAE/rest
@@ -136,7 +148,7 @@ class _Tail:
         values = {}
         for name, factor in (("IAE", 1 / sigma), ("ITAE", self.T / sigma + 1 / sigma**2)):
             whole = getattr(self.found, name) + abs(self.right) * factor
-            values[name] = whole if unknown * factor <= KNOWN * whole else math.nan
+            values[name] = whole if unknown * factor <= INTEGRAL_PRECISION * whole else math.nan
         return replace(self.found, **values)
 
 

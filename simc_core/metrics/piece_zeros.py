@@ -8,20 +8,21 @@ between two samples is lost. From the secant of its bracket x goes by Halley's s
 or halves the bracket, until a step is short and nearly Newton's, N; the next one then leaves rounding.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import chebyshev_basis
 
 INTERVALS = 64
 SAMPLES = np.cos(np.pi * np.arange(INTERVALS, -1, -1) / INTERVALS)
 MOST_STEPS = 8
 SHORT, BENT = 0.1, 0.1  # of the bracket, and of N f''/(2 f'), the error of Newton's step in units of it
-FLAT = 1e-11  # of the size of a series: so near a level it begins on it, often with several derivatives
-ROUNDING = 1e-15  # of its size
+AT_LEVEL = 1e-11  # of the size of a series: so near a level it begins on it, often with several derivatives
+SERIES_ROUNDING = 1e-15  # of its size
 
 VANDERMONDE = chebyshev.chebvander(SAMPLES, P - 1).T
 SLOPE = chebyshev.chebder(np.eye(P), axis=1) @ np.eye(P - 1, P)  # coefficients -> those of the derivative
@@ -59,14 +60,22 @@ class LevelCrossings:
     def of_first_level(self) -> "LevelCrossings":
         """Those through the first level."""
         k = self.level.searchsorted(1)
-        along = (each[:k] for each in (self.level, self.row, self.interval, self.x, self.sign))
-        return LevelCrossings(*along, self.basis[:, :k], self.begin[:1], self.ends)
+        return LevelCrossings(
+            self.level[:k],
+            self.row[:k],
+            self.interval[:k],
+            self.x[:k],
+            self.sign[:k],
+            self.basis[:, :k],
+            self.begin[:1],
+            self.ends,
+        )
 
     def of(self, series: np.ndarray) -> np.ndarray:
         """Values of other series (R, P) there."""
         return np.add.reduce(series[self.row].T * self.basis[:P], axis=0)
 
-    def integral(self, left, right: np.ndarray, at: np.ndarray) -> np.ndarray:
+    def integral(self, left: float | np.ndarray, right: np.ndarray, at: np.ndarray) -> np.ndarray:
         """int s g' on each row, (R,), s the sign of the series less the first level, all of whose zeros these are.
 
         g: left and right (R,), at the places (k,).
@@ -80,23 +89,25 @@ def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None
     """Of the series (R, P) through levels (L, R), -inf or nan for none.   turns: of the series."""
     values, size = series @ VANDERMONDE, np.add.reduce(np.abs(series), axis=1)
     below = values < levels[:, :, None]
-    flat = np.abs(values[:, 0] - levels) <= FLAT * size
+    flat = np.abs(values[:, 0] - levels) <= AT_LEVEL * size
     np.copyto(below[:, :, 0], below[:, :, 1], where=flat)
     where, interval = np.divmod(np.flatnonzero(below[:, :, 1:] != below[:, :, :-1]), INTERVALS)
     level, row = np.divmod(where, len(series))
     first, last = values[row, interval], values[row, interval + 1]
-    found = level, row, interval, SAMPLES[interval], SAMPLES[interval + 1], first, last
+    found: Sequence[np.ndarray] = (level, row, interval, SAMPLES[interval], SAMPLES[interval + 1], first, last)
     if turns is not None:
         found = _with_lobes(found, turns, values, below, levels)
     level, row, interval, low, high, first, last = found
     own, through = series[row].T, levels[level, row]
     own[0] -= through
-    x, basis = _polished(own, ROUNDING * size[row], low, high, first - through, last - through)
+    x, basis = _polished(own, SERIES_ROUNDING * size[row], low, high, first - through, last - through)
     sign, ends = 1.0 - 2.0 * (first < through), 1.0 - 2.0 * below[0, :, ::INTERVALS].T
     return LevelCrossings(level, row, interval, x, sign, basis, below[:, :, 0], ends)
 
 
-def _with_lobes(found, turns: Turns, values: np.ndarray, below: np.ndarray, levels: np.ndarray):
+def _with_lobes(
+    found: Sequence[np.ndarray], turns: Turns, values: np.ndarray, below: np.ndarray, levels: np.ndarray
+) -> Sequence[np.ndarray]:
     """Brackets on both sides of a turn that is not on the side of a level where the samples around it are."""
     before = below[:, turns.row, turns.interval]
     lobe = (before == below[:, turns.row, turns.interval + 1]) & (before != (turns.value < levels[:, turns.row]))
@@ -111,7 +122,9 @@ def _with_lobes(found, turns: Turns, values: np.ndarray, below: np.ndarray, leve
     return [each[order] for each in joined]
 
 
-def _polished(own: np.ndarray, rounding, low, high, first, last) -> tuple[np.ndarray, np.ndarray]:
+def _polished(
+    own: np.ndarray, rounding: np.ndarray, low: np.ndarray, high: np.ndarray, first: np.ndarray, last: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Zeros of columns (P, k) between low and high, where they are first and last: x, and the basis next to it."""
     parts, width, below = (TAYLOR @ own).reshape(3, P, -1), high - low, first < 0
     short = SHORT * width

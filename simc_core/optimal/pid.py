@@ -27,11 +27,11 @@ MOST_M = 30.0
 DIFFERENCE = 1e-4  # of the variables, for the gradient
 PEAKS = 4  # of |S| and of |T|
 LOW = 0.5  # of M: peaks that matter
-SETTLED, VIOLATED = 3e-6, 2e-6  # relative: change of the criterion, peaks beyond what is asked
+CRITERION_SETTLED, VIOLATED = 3e-6, 2e-6  # relative: change of the criterion, peaks beyond what is asked
 ASIDE = 3e-6  # relative: what is asked, below M
 ITERATIONS, EVALUATIONS = 45, 60
 AROUND_END, LOOKS = 0.02, 6  # logarithms of tau_I and tau_D about the end of a search, and how often
-FLAT = 1e-13  # second difference of log|S| that is rounding
+BEND_ROUNDING = 1e-13  # second difference of log|S| that is rounding
 SLACK = 1.0  # of a constraint that is not there
 REACH = math.log(1e4)  # of each variable from where it begins
 ZOOM = np.linspace(0.0, 1.0, 9)
@@ -103,7 +103,10 @@ class _Search:
     def found(self) -> Found | None:
         """The best point of all."""
         value, x = self.best
-        return Found(*map(float, self.settings(x)), math.exp(value)) if math.isfinite(value) else None
+        if not math.isfinite(value):
+            return None
+        Kc, tau_I, tau_D = map(float, self.settings(x))
+        return Found(Kc, tau_I, tau_D, math.exp(value))
 
     def _pull_back(self) -> None:
         """The last point may be better than the best, but for a gain that is a little too large."""
@@ -135,7 +138,7 @@ class _Search:
     def _settled(self, x: np.ndarray) -> None:
         """After each accepted step."""
         at = self._at(x)
-        if abs(at.f - self.accepted) < SETTLED and at.g.min() > -VIOLATED:
+        if abs(at.f - self.accepted) < CRITERION_SETTLED and at.g.min() > -VIOLATED:
             raise StopIteration
         self.accepted = at.f
 
@@ -195,7 +198,7 @@ class _Search:
             i = np.clip(fine.argmax(axis=1), 1, len(ZOOM) - 2)
             left, right = w[every, i - 1], w[every, i + 1]
         before, middle, after = (fine[every, i + shift] for shift in (-1, 0, 1))
-        bend = np.minimum(before - 2 * middle + after, -FLAT)
+        bend = np.minimum(before - 2 * middle + after, -BEND_ROUNDING)
         shift = np.clip((before - after) / (2 * bend), -1.0, 1.0)
         return w[every, i] + shift * (right - left) / 2, middle + shift * (after - before) / 4, of_T == 1
 
@@ -211,9 +214,9 @@ def _start(
 ) -> np.ndarray | None:
     """Logarithms of Kc, tau_I, tau_D, of tau_I = 1 in place of inf."""
     if warm is not None:
-        high = float(problem.edges(warm.tau_I, warm.tau_D)[1][0])
-        if math.isfinite(high):
-            return np.log([min(BEGIN * high, warm.Kc), warm.tau_I if search.integral else 1.0, warm.tau_D])
+        edge = float(problem.edges(warm.tau_I, warm.tau_D)[1][0])
+        if math.isfinite(edge):
+            return np.log([min(BEGIN * edge, warm.Kc), warm.tau_I if search.integral else 1.0, warm.tau_D])
     pairs = [(i * problem.scale, d * problem.scale) for i in TIMES_I for d in TIMES_D]
     if problem.criterion.name != "load":
         pairs += [(i * problem.times, d * problem.scale) for i in (0.5, 1.0) for d in TIMES_D]

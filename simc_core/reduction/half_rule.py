@@ -41,7 +41,7 @@ from simc_core.sensitivity.margins import margins
 RULES = ("2003", "1998")
 MOST_PROBES = 400  # of theta; median 18 for two zeros, 100 for six, 240 for a dozen. Beyond this some may be missed
 INSIDE = 0.414  # where an interval is probed; not the middle, where symmetric plants have their changes
-SAME = 1e-9  # relative; two delays this close are one
+SAME_DELAY = 1e-9  # relative; two delays this close are one
 
 
 def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003", tau_F: float = 0.0) -> Reduction:
@@ -113,6 +113,39 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003",
     )
 
 
+def reduced_model(plant: Plant, order: int = 1) -> Model:
+    """The model of `half_rule` alone, without the steps and without what the other order is worth: many times faster.
+
+    Parameters
+    ----------
+    plant : Plant
+        The plant to be reduced.
+    order : int
+        1 for a PI controller, 2 for a PID.
+
+    Returns
+    -------
+    Model
+        `half_rule(plant, order).model`.
+
+    Raises
+    ------
+    NotReducible
+        The plant has no SIMC model.
+
+    References
+    ----------
+    [SK03 eq. 10-11]
+
+    Examples
+    --------
+    >>> from simc_core import parse_plant
+    >>> reduced_model(parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))"))
+    FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
+    """
+    return _chosen(plant, dynamics(plant), checks.whole("order", order, 1, 2), 0.0, "2003")
+
+
 def _chosen(plant: Plant, parts: Dynamics, order: int, late: float, rules: str) -> Model:
     candidates, _ = _reduce(plant, parts, order, late, rules)
     return next(candidate.model for candidate in candidates if candidate.chosen)
@@ -174,7 +207,7 @@ def _self_consistent(at: Callable[[float], TrialReduction], longest: float) -> l
     probe(0.0)
     while intervals and len(probed) < MOST_PROBES:
         low, high = intervals.popleft()
-        if high - low <= SAME * longest:
+        if high - low <= SAME_DELAY * longest:
             continue
         theta = low + INSIDE * (high - low)
         turning_points = probe(theta).turning_points
@@ -187,16 +220,16 @@ def _self_consistent(at: Callable[[float], TrialReduction], longest: float) -> l
             probe(above)
             intervals.append((above, high))
     found: list[TrialReduction] = []
-    for theta in sorted(value for value in proposed if 0 <= value <= longest * (1 + SAME)):
+    for theta in sorted(value for value in proposed if 0 <= value <= longest * (1 + SAME_DELAY)):
         trial = at(theta)
         value = trial.theta(theta)
-        if abs(value - theta) <= SAME * longest and not any(_same(value, other, longest) for other in found):
+        if abs(value - theta) <= SAME_DELAY * longest and not any(_same(value, other, longest) for other in found):
             found.append(resolved(trial, theta))
     return found or [_nearest(probed)]
 
 
 def _same(theta: float, other: TrialReduction, longest: float) -> bool:
-    return abs(theta - other.theta.at) <= 2 * SAME * longest
+    return abs(theta - other.theta.at) <= 2 * SAME_DELAY * longest
 
 
 def _nearest(probed: list[tuple[float, TrialReduction]]) -> TrialReduction:

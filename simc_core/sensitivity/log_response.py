@@ -29,7 +29,7 @@ from simc_core.algebra.factors import Factored, log_product, product, roots_of, 
 Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
 
 LEAST = 1e-20  # zeta of an undamped pair, less than rounding, so that no frequency is exactly its own
-LARGEST = 600.0  # of log|L| where S and T are wanted
+LARGEST_LOG_L = 600.0  # of log|L| where S and T are wanted
 
 
 class Asymptote(NamedTuple):
@@ -39,7 +39,18 @@ class Asymptote(NamedTuple):
     power: int
 
 
-class Response(Protocol):
+class Ends(Protocol):
+    """The ends of a loop transfer function, at s = 0 and at infinity.   theta: its dead time."""
+
+    @property
+    def theta(self) -> float: ...
+    @property
+    def at_zero(self) -> Asymptote: ...
+    @property
+    def at_infinity(self) -> Asymptote: ...
+
+
+class Response(Ends, Protocol):
     """A loop transfer function as the search sees it.
 
     log_derivatives(omega): log L, and its first and second derivative in omega, complex, shape of omega.
@@ -47,10 +58,8 @@ class Response(Protocol):
     roots: poles and zeros other than 0, and whatever else makes |L| or arg L bend; a rough value is enough.
     """
 
-    theta: float
-    roots: list[complex]
-    at_zero: Asymptote
-    at_infinity: Asymptote
+    @property
+    def roots(self) -> list[complex]: ...
 
     def log_derivatives(self, omega: np.ndarray) -> Logs: ...
 
@@ -183,8 +192,8 @@ class Series:
 
 def sensitivities(log: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """S and T from log L, also where L overflows."""
-    if np.maximum.reduce(log.real, initial=0.0) > LARGEST:
-        log = np.minimum(log.real, LARGEST) + 1j * log.imag
+    if np.maximum.reduce(log.real, initial=0.0) > LARGEST_LOG_L:
+        log = np.minimum(log.real, LARGEST_LOG_L) + 1j * log.imag
     L = np.exp(log)
     S = 1 / (1 + L)
     return S, L * S

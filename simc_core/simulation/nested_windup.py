@@ -23,7 +23,7 @@ from simc_core.simulation.rise import risen
 from simc_core.simulation.several_delays.network import Network, integral_states, network
 from simc_core.simulation.simulate_nested import NestedResponse, horizon
 
-STEPS, MOST_STEPS = 3000, 40_000
+FEWEST_STEPS, MOST_STEPS = 3000, 40_000
 PROTECTIONS = ("none", "inner", "both")
 
 
@@ -69,11 +69,11 @@ def limited(
 def _step(system: Network, t_end: float) -> float:
     """A part of the shortest dead time, so that the jump at t = 0 comes back at an instant of the grid."""
     if not system.theta.size:
-        return t_end / STEPS
+        return t_end / FEWEST_STEPS
     shortest = float(np.min(system.theta))
     if t_end / shortest > MOST_STEPS:
         raise InvalidParameter(f"t_end must be at most {MOST_STEPS} theta = {MOST_STEPS * shortest:g}, got {t_end:g}")
-    return shortest / whole_steps(STEPS * shortest / t_end)
+    return shortest / whole_steps(FEWEST_STEPS * shortest / t_end)
 
 
 def _tracking(loops: NestedLoops, n: int, protection: str) -> np.ndarray:
@@ -151,7 +151,7 @@ def _delayed(z: np.ndarray, k: int, reach: np.ndarray, from_left: bool = False) 
     return found
 
 
-def _ramps(system: Network, tracking: np.ndarray, dt: float):
+def _ramps(system: Network, tracking: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Phi, and what (w, v, e) at the start and at the end of a step add, all running linearly."""
     n = len(system.A)
     inputs = np.column_stack([system.B, system.E, system.E[:, 1] + tracking])

@@ -7,15 +7,15 @@ from numpy.polynomial import chebyshev
 
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import NestedLoops
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import round_up
 from simc_core.simulation.scenario import Scenario
 from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.superposition import superposed
 
-SETTLED = 0.01  # of the largest value; where a default horizon ends
-BEGIN = 2.0  # first horizon, in units of all times of the loops together
+SETTLED_PART = 0.01  # of the largest value; where a default horizon ends
+FIRST_HORIZON = 2.0  # first horizon, in units of all times of the loops together
 MOST_DOUBLINGS = 7
 GROWN = 30.0  # an unstable response is shown until it is this large
 SAMPLES = 24  # instants in a piece at which a horizon is judged
@@ -23,9 +23,14 @@ SAMPLES = 24  # instants in a piece at which a horizon is judged
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NestedResponse:
-    """t, r of shape (n,); ds, ys, us (N, n) from the inside out: disturbances, outputs, controller outputs.
+    """What nested loops do in time; of a cascade also y = y1, y2, its set point r2, d = d1, d2, and u, the input of Gb.
 
-    Of a cascade: y = y1, y2 and its set point r2, d = d1, d2, and u, the input of Gb.
+    Attributes
+    ----------
+    t, r : np.ndarray, shape (n,)
+        Instants, in the user's time unit, and set point of the outermost loop.
+    ds, ys, us : np.ndarray, shape (N, n)
+        From the inside out: disturbances at the inputs of the blocks, their outputs, outputs of the controllers.
     """
 
     t: np.ndarray
@@ -80,7 +85,7 @@ def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
     heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d
     starts, t_end = _times(loop, scenario, heights)
     pieces = steps_of(loop).run(t_end)
-    t, inputs, outputs = superposed(pieces, heights, starts, t_end, scenario)
+    t, inputs, outputs = superposed(pieces, heights.tolist(), starts.tolist(), t_end, scenario)
     return NestedResponse(t, inputs[0], inputs[1:], outputs[:N], outputs[N:])
 
 
@@ -117,13 +122,13 @@ def _times(loop: NestedLoops, scenario: Scenario, heights: np.ndarray) -> tuple[
 
 def horizon(loop: NestedLoops) -> float:
     """A round time in which all unit steps settle to 1 %, or an unstable response has grown enough to be seen."""
-    steps, t_end = steps_of(loop), BEGIN * time_scale(loop)
+    steps, t_end = steps_of(loop), FIRST_HORIZON * time_scale(loop)
     for _ in range(MOST_DOUBLINGS):
         t, values = _sampled(steps.run(t_end), t_end, len(loop.blocks))
         size = np.abs(values)
         if size.max() > GROWN * max(size[t < t[-1] / 4].max(), 1.0):
             return round_up(float(t[np.argmax(size.max(axis=(1, 2)) > GROWN)]))
-        away = np.abs(values - values[-1]) > SETTLED * size.max(axis=0)
+        away = np.abs(values - values[-1]) > SETTLED_PART * size.max(axis=0)
         last = int(np.max(np.flatnonzero(away.any(axis=(1, 2))), initial=0))
         if t[last] < 0.7 * t[-1]:
             return round_up(float(t[last + 1]))

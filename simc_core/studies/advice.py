@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
 from simc_core.errors import FormError, NotReducible
 from simc_core.notation import number
 from simc_core.plants.models import (
@@ -34,7 +34,7 @@ GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
 SLOW_INTEGRATING = 8.0  # tau_c/theta of the "moderate" choice [V06 eq. 7]; an integrating plant has no time of its own
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4
-ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
+LIMIT_ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
 LEVELS = ("error", "warning", "note")
 BY_MODEL = {
     DoubleIntegratingDelay: "Two integrators need derivative action: the rule for this plant is a PID.",
@@ -104,7 +104,7 @@ def large_Ms(of: Tuned) -> Advice | None:
 def faster_than_dead_time(of: Tuned) -> Advice | None:
     """tau_c < theta, where it costs robustness."""
     theta, tau_c = of.model.theta, of.tau_c
-    if tau_c >= theta * (1 - ROUNDING) or not of.margins.stable:
+    if tau_c >= theta * (1 - LIMIT_ROUNDING) or not of.margins.stable:
         return None
     tight = of.at(theta)
     if not tight.margins.Ms < of.margins.Ms:
@@ -121,7 +121,7 @@ def slower_than_plant(of: Tuned) -> Advice | None:
     if isinstance(of.model, UnstableDelay):
         return None
     limit = slowest_useful(of.plant, of.model)
-    if not of.tau_c > limit * (1 + ROUNDING):
+    if not of.tau_c > limit * (1 + LIMIT_ROUNDING):
         return None
     if of.plant.integrators:
         worse = load_error(of.controller) / load_error(of.at(of.model.theta).controller)
@@ -147,7 +147,7 @@ def slowest_useful(plant: Plant, model: Model) -> float:
 
 
 def derivative_noise(of: Tuned) -> Advice | None:
-    """Derivative action without a filter, or the noise gain Kd/tau_F with it."""
+    """Derivative action without a filter, or the high-frequency gain Kd/tau_F with it."""
     form = of.controller.to_parallel()
     if not form.Kd:
         return None
@@ -155,8 +155,9 @@ def derivative_noise(of: Tuned) -> Advice | None:
         gain = abs(form.Kd) / form.tau_F
         times = f", {number(gain / abs(form.Kp), 3)} times Kp" if form.Kp else ""
         text = f"Fast measurement noise reaches the input with this gain{times}. A larger tau_F lowers it."
-        return Advice("note", "Noise gain Kd/tau_F", text, gain)
+        return Advice("note", "High-frequency gain Kd/tau_F", text, gain)
     change, Ms = filter_that_costs_little(of)
+    assert isinstance(of.controller, SeriesPid | IdealPid)  # SIMC with derivative action
     tau_F = change["filter"] * of.controller.tau_D
     remedy = f"Set tau_F/tau_D = {number(change['filter'])}, tau_F = {number(tau_F, 3)}"
     remedy += f": Ms becomes {number(Ms, 3)}." if math.isfinite(Ms) else "."
@@ -219,7 +220,7 @@ def delivered(controller: Controller) -> str:
     """What the controller is: I, PI or PID."""
     if isinstance(controller, IController):
         return "I"
-    return "PID" if controller.tau_D else "PI"
+    return "PID" if controller.to_parallel().Kd else "PI"
 
 
 def advice_on_settings(plant: Plant, controller: Controller) -> tuple[Advice, ...]:
@@ -250,7 +251,7 @@ def slow_oscillation(model: Model, controller: Controller) -> Advice | None:
     if series.tau_I >= tau1 or series.tau_I == math.inf:
         return None
     product = series.Kc * slope * series.tau_I
-    if product >= SLOW_LIMIT * (1 - ROUNDING) or product < 0:
+    if product >= SLOW_LIMIT * (1 - LIMIT_ROUNDING) or product < 0:
         return None
     Kc = SLOW_LIMIT / (slope * series.tau_I)
     text = "The gain is too low for so short an integral time: slow oscillation."

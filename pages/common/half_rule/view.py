@@ -34,19 +34,19 @@ VERDICTS = {
 
 def choices() -> None:
     """Order, sampling period, set of rules; what theta allows for."""
-    order, h, rules = st.columns([3, 2, 4], vertical_alignment="bottom")
-    under = st.container()
-    order.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
+    row = st.container(horizontal=True, vertical_alignment="bottom", gap="medium")
+    row.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
     design_number(
         "sampling",
         "Sampling period",
         quantity="time",
         key="half_rule_sampling",
-        place=h,
-        under=under,
+        place=row,
+        under=st.container(),
+        width=170,
         help="Of a digital controller, the same on all pages; 0: continuous.",
     )
-    rules_choice(rules)
+    rules_choice(row)
     with st.container(horizontal=True, vertical_alignment="center", gap="medium"):
         design = state.design_now()
         if design.actuator.h:

@@ -15,6 +15,7 @@ Each quantity is a row there, of the coefficients by which it is made of z_j, so
 
 import math
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 
@@ -26,11 +27,11 @@ from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.one_step import Linear, Step
 from simc_core.simulation.rise import mean_risen, risen
 
-STEPS = 5000  # at least; more where theta or h is short against the horizon
+FEWEST_STEPS = 5000  # at least; more where theta or h is short against the horizon
 MOST_STEPS = 50_000  # less than 0.1 s
-SAME = 1e-9  # relative; instants closer than this to the grid are on it
+SAME_INSTANT = 1e-9  # relative; instants closer than this to the grid are on it
 MOST_JUMPS = 1000  # of a course that are shown as jumps
-LARGEST = 1e200  # an unstable response is cut off here
+CUT_OFF = 1e200  # an unstable response is cut off here
 W1, W2, LOAD, ARRIVING = OF_PLANT = range(-4, 0)  # the last columns of z
 
 
@@ -38,12 +39,39 @@ W1, W2, LOAD, ARRIVING = OF_PLANT = range(-4, 0)  # the last columns of z
 class Actuation:
     """What is not linear, or not known in advance, between controller and plant.
 
-    u_min <= u <= u_max, infinite where there is no limit; u = 0, the state of rest, must be within.
-    tracking_time: T_t, None for the default, math.inf for no anti-windup; shorter than a step of the controller it
-    acts like that step.   noise: standard deviation of the measurement noise, a new value each step of the controller.
-    seed: of the noise.   h: sampling period of the controller, 0 if continuous.   law: of a sampled controller, one of
-    controllers.discrete.LAWS.   resolution, dead_band, backlash: of the actuator, in units of u, 0 for none.
-    rate_limit: the largest |du/dt|, infinite for none. See mechanism.py.
+    Parameters
+    ----------
+    u_min, u_max : float
+        Limits of u, infinite where there is none; u = 0, the state of rest, must be within.
+    tracking_time : float or None
+        T_t of the anti-windup, in the user's time unit. None: sqrt(tau_I tau_D), or tau_I without derivative action;
+        math.inf: no anti-windup. Shorter than a step of the controller it acts like that step.
+    noise : float
+        Standard deviation of the measurement noise, in output units; a new value each step of the controller.
+    seed : int
+        Of the noise.
+    h : float
+        Sampling period of the controller, in the user's time unit; 0 if continuous.
+    law : {"backward", "tustin"}
+        Of a sampled controller, see controllers/discrete.py.
+    resolution, dead_band, backlash : float
+        Of the actuator, in units of u, 0 for none; see mechanism.py.
+    rate_limit : float
+        The largest |du/dt|, infinite for none.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds.
+
+    Examples
+    --------
+    A valve that opens by 1.2 at most:
+
+    >>> from simc_core import Actuation, Loop, Plant, Scenario, SeriesPid, simulate
+    >>> found = simulate(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)), Scenario(actuation=Actuation(u_max=1.2)))
+    >>> float(found.u.max())
+    1.2
     """
 
     u_min: float = -math.inf
@@ -58,7 +86,7 @@ class Actuation:
     backlash: float = 0.0
     rate_limit: float = math.inf
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__
         for name, none in (("u_min", -math.inf), ("u_max", math.inf)):
             value = getattr(self, name)
@@ -137,12 +165,13 @@ class Stepped:
 
     def at(self, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """y, u at the instants t, linear within a step, right-hand limits at its ends, the last values after them."""
-        return self._within(np.searchsorted(self.t, t * (1 + SAME), side="right") - 1, t)
+        return self._within(np.searchsorted(self.t, t * (1 + SAME_INSTANT), side="right") - 1, t)
 
     def before(self, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As at(t), left-hand limits; at rest before t = 0."""
-        step = np.searchsorted(self.t, t * (1 - SAME), side="left") - 1
-        return tuple(np.where(step < 0, 0.0, values) for values in self._within(step, t))
+        step = np.searchsorted(self.t, t * (1 - SAME_INSTANT), side="left") - 1
+        y, u = self._within(step, t)
+        return np.where(step < 0, 0.0, y), np.where(step < 0, 0.0, u)
 
     def _within(self, step: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         step = np.clip(step, 0, len(self.t) - 2)
@@ -156,12 +185,12 @@ class Stepped:
             jump = np.abs(each[:, 0] - np.concatenate([[0.0], each[:-1, 1]]))
             size = np.maximum(size, jump / np.max(np.abs(each), initial=1e-300))
         largest = np.argsort(-size, kind="stable")[:MOST_JUMPS]
-        return np.sort(self.t[largest[size[largest] > SAME]])
+        return np.sort(self.t[largest[size[largest] > SAME_INSTANT]])
 
 
 def stepped(dt: float, y: np.ndarray, v: np.ndarray, u: np.ndarray, h: float) -> Stepped:
     """A course of steps of equal length dt, without those behind an overflow."""
-    good = np.all((np.abs(y) < LARGEST) & (np.abs(v) < LARGEST), axis=1)
+    good = np.all((np.abs(y) < CUT_OFF) & (np.abs(v) < CUT_OFF), axis=1)
     N = len(y) if good.all() else max(int(np.argmin(good)), 1)
     return Stepped(dt * np.arange(N + 1), y[:N], v[:N], u[:N], h)
 
@@ -185,10 +214,10 @@ class Driven:
         self.system, self.step, self.dt, self.theta, self.inputs = system, step, dt, theta, inputs
         arrives = (inputs.disturbance_time + theta) / dt
         near = round(arrives)
-        self.first = self.whole = near if abs(arrives - near) < SAME * arrives else math.floor(arrives)
+        self.first = self.whole = near if abs(arrives - near) < SAME_INSTANT * arrives else math.floor(arrives)
         self.kick = np.zeros(len(system.B))
         rest = max(self.first + 1 - arrives, 0.0) * dt  # of step `first`
-        if rest < dt * (1 - SAME):
+        if rest < dt * (1 - SAME_INSTANT):
             self.whole, self.kick = self.first + 1, system.hold(rest)[1]
 
     def over(self, x: np.ndarray, last: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -209,8 +238,13 @@ class Driven:
         return z
 
 
+def column(z: np.ndarray, k: int, begin: int) -> "memoryview[float]":
+    """Column k of z from row `begin` on, one number after the other: an array takes three times as long to index."""
+    return cast("memoryview[float]", z[begin:, k].data)
+
+
 def affordable(steps: float, why: str) -> int:
     """Whole steps that go beyond `steps`, so that a jump at the end is seen. Raises InvalidParameter: MOST_STEPS."""
     if steps > MOST_STEPS:
         raise InvalidParameter(f"t_end must be <= {MOST_STEPS} steps for {why}, got {steps:.3g}")
-    return math.floor(steps * (1 + SAME)) + 1
+    return math.floor(steps * (1 + SAME_INSTANT)) + 1

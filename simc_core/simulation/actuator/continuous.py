@@ -25,9 +25,9 @@ from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.simulation.actuator.actuation import (
+    FEWEST_STEPS,
     MOST_STEPS,
     OF_PLANT,
-    STEPS,
     W1,
     W2,
     Actuation,
@@ -35,6 +35,7 @@ from simc_core.simulation.actuator.actuation import (
     Inputs,
     Stepped,
     affordable,
+    column,
     stepped,
     tracking_time_in_use,
 )
@@ -66,14 +67,14 @@ def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Stepped:
 
 def _often(loop: Loop, inputs: Inputs) -> float:
     """A sampling period that is as good as none, for an actuator that moves by jumps."""
-    shortest = min(inputs.t_end / STEPS, loop.plant.theta / PER_DEAD_TIME or math.inf)
+    shortest = min(inputs.t_end / FEWEST_STEPS, loop.plant.theta / PER_DEAD_TIME or math.inf)
     return max(shortest, inputs.t_end / MOST_STEPS * (1 + 1e-9))
 
 
 def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs) -> Stepped:
     system, theta = _measured(loop, form), loop.plant.theta
-    m = whole_steps(theta * STEPS / inputs.t_end) if theta else 0
-    dt = theta / m if m else inputs.t_end / STEPS
+    m = whole_steps(theta * FEWEST_STEPS / inputs.t_end) if theta else 0
+    dt = theta / m if m else inputs.t_end / FEWEST_STEPS
     N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
     m, n = min(m, N), len(system.B)
     plant = Driven(system, system.ramp(dt), dt, theta, inputs)
@@ -89,10 +90,10 @@ def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inp
 
 
 def _march(z: np.ndarray, n: int, N: int, m: int, law: "_Law", actuation: Actuation) -> None:
-    """N steps; u takes m of them to the plant. Columns as memoryviews: an array takes three times as long to index."""
+    """N steps; u takes m of them to the plant."""
     low, high, through, ahead = actuation.u_min, actuation.u_max, law.through, law.matrix.dot
-    asked0, asked1, given0, given1 = (memoryview(z[1:, n + k]) for k in (ASKED0, ASKED1, GIVEN0, GIVEN1))
-    w1, w2 = memoryview(z[m:, W1]), memoryview(z[m:, W2])
+    asked0, asked1, given0, given1 = (column(z, n + k, 1) for k in (ASKED0, ASKED1, GIVEN0, GIVEN1))
+    w1, w2 = column(z, W1, m), column(z, W2, m)
     for j, row, head in zip(range(N), z, z[1:, : n + GIVEN0], strict=False):
         ahead(row, head)
         u = asked0[j]

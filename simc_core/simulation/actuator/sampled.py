@@ -14,9 +14,9 @@ from simc_core.controllers.discrete import State, law_for
 from simc_core.controllers.forms import ParallelPid
 from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.actuation import (
+    FEWEST_STEPS,
     OF_PLANT,
-    SAME,
-    STEPS,
+    SAME_INSTANT,
     W1,
     W2,
     Actuation,
@@ -24,6 +24,7 @@ from simc_core.simulation.actuator.actuation import (
     Inputs,
     Stepped,
     affordable,
+    column,
     stepped,
     tracking_time_in_use,
 )
@@ -41,10 +42,10 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     """As saturation.actuated, for h > 0. Raises InvalidParameter beyond actuation.MOST_STEPS steps."""
     A, B, C, D = chain(loop.plant.factored)
     system, theta, h, n = Linear(A, B, C[None, :], np.array([D])), loop.plant.theta, actuation.h, len(B)
-    fine = whole_steps(h * STEPS / inputs.t_end)  # steps a sampling period
+    fine = whole_steps(h * FEWEST_STEPS / inputs.t_end)  # steps a sampling period
     dt = h / fine
     N = affordable(inputs.t_end / dt, f"a sampling period of {h:g}")
-    m = min(math.ceil(theta / dt * (1 - SAME)), N)
+    m = min(math.ceil(theta / dt * (1 - SAME_INSTANT)), N)
     late = max(m * dt - theta, 0.0)  # w over step j is u of step j - m, for the last `late` that of j - m + 1
     reach = m, m - (late > 0)  # steps from u to w1 and to w2
     plant = Driven(system, system.late_hold(dt, late), dt, theta, inputs)
@@ -63,10 +64,10 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
 def _march(
     z: np.ndarray, n: int, ahead: list[Callable], reach: tuple[int, int], actuation: Actuation, dt: float
 ) -> None:
-    """All steps, each with its matrix. Columns as memoryviews: an array takes three times as long to index."""
+    """All steps, each with its matrix."""
     low, high = actuation.u_min, actuation.u_max
-    asked, known, given = (memoryview(z[1:, n + column]) for column in (ASKED, KNOWN, GIVEN))
-    w1, w2 = memoryview(z[reach[0] :, W1]), memoryview(z[reach[1] :, W2])
+    asked, known, given = (column(z, n + each, 1) for each in (ASKED, KNOWN, GIVEN))
+    w1, w2 = column(z, W1, reach[0]), column(z, W2, reach[1])
     moved, u = _mechanism(actuation, dt), 0.0
     for j, (take, row, head) in enumerate(zip(ahead, z, z[1:, : n + KNOWN], strict=False)):
         take(row, head)
@@ -81,7 +82,9 @@ def _mechanism(actuation: Actuation, dt: float) -> Moved | None:
     return mechanism(actuation.resolution, actuation.dead_band, actuation.rate_limit * dt, actuation.backlash)
 
 
-def _matrices(plant: Driven, form: ParallelPid, actuation: Actuation, pull: float, reach: tuple[int, int]):
+def _matrices(
+    plant: Driven, form: ParallelPid, actuation: Actuation, pull: float, reach: tuple[int, int]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Matrices of a step that begins with a sample and of one that does not; rows of y at the start and at the end."""
     system, (_, G1, G2) = plant.system, plant.step
     at_once1, at_once2 = (steps == 0 for steps in reach)

@@ -1,0 +1,1 @@
+"""Many loops: rows, chunks, executors, tables, the command and the report."""

@@ -1,0 +1,152 @@
+"""The command: results as they come, a run that goes on, one report."""
+
+import csv
+import math
+
+import pytest
+
+from simc_core import Plant, SeriesPid, read_list, stability, tune_chunk
+from simc_core.__main__ import main
+from simc_core.errors import InvalidParameter
+from simc_core.loops.loop import Loop
+from simc_core.many.read_list import template
+from simc_core.many.report import report, worth
+from simc_core.many.results_csv import ResultsFile, as_csv, cells
+from simc_core.many.variants import TuneWithVariants, robust, varied
+
+EVIL = '<script>alert("1")</script>'
+
+
+@pytest.fixture
+def loops(tmp_path):
+    path = tmp_path / "loops.csv"
+    path.write_text(template() + f'{EVIL},,x,1,1\n"=1+1",,1,1,8\n,,1,1,8\n,,1,1,4\n', encoding="utf-8")
+    return path
+
+
+def lines(path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_list_in_results_and_a_report_out(loops, tmp_path, capsys):
+    assert main(["many", str(loops), "-o", str(tmp_path / "out")]) == 0
+    found = lines(tmp_path / "out" / "results.csv")
+    assert [line["tag"] for line in found[:2]] == ["FC-101", "TC-205"]
+    assert len(found) == 9
+    assert float(found[0]["Kc"]) == pytest.approx(4 / (1.2 * 2))  # tau1/(k 2 theta)
+    assert found[5]["refusal"].startswith("k must be one number, got 'x'")
+    assert found[6]["tag"] == "'=1+1"
+    said = capsys.readouterr()
+    assert "9 loops, 8 tuned, 1 refused" in said.out
+    assert "9 of 9" in said.err
+
+
+def test_the_report_is_escaped_and_needs_nothing_else(loops, tmp_path):
+    main(["many", str(loops), "-o", str(tmp_path)])
+    html = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert EVIL not in html
+    assert "&lt;script&gt;" in html
+    for outside in ("<script", "http:", "https:", "src=", "@import"):
+        assert outside not in html
+    assert html.index("PC-412") < html.index("TC-205") < html.index("FC-101")  # unstable, fragile, sluggish
+
+
+def test_a_run_that_was_stopped_goes_on(loops, tmp_path):
+    """Half of the results and a broken line are there; at the end every loop is there once."""
+    main(["many", str(loops), "-o", str(tmp_path / "whole")])
+    whole = (tmp_path / "whole" / "results.csv").read_bytes()
+    some = whole.split(b"\n")
+    (tmp_path / "again").mkdir()
+    (tmp_path / "again" / "results.csv").write_bytes(b"\n".join(some[:4]) + b"\n" + some[4][:30])
+    main(["many", str(loops), "-o", str(tmp_path / "again")])
+    assert (tmp_path / "again" / "results.csv").read_bytes() == whole
+    main(["many", str(loops), "-o", str(tmp_path / "again")])
+    assert (tmp_path / "again" / "results.csv").read_bytes() == whole
+
+
+def test_a_tag_that_is_there_twice_is_done_twice(tmp_path):
+    rows = [{"tag": "A", "k": k, "theta": 1, "tau1": 8} for k in (1, 2)]
+    path = tmp_path / "results.csv"
+    with ResultsFile(path) as file:
+        file.write(tune_chunk(rows)[0])
+    with ResultsFile(path) as file:
+        assert list(file.left(rows)) == rows[1:]
+
+
+def test_another_file_is_not_written_to(tmp_path):
+    path = tmp_path / "results.csv"
+    path.write_text("mine\n1\n")
+    with pytest.raises(InvalidParameter, match="file of results"):
+        ResultsFile(path)
+    assert path.read_text() == "mine\n1\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [(["many"], "needs a list"), (["many", "no such file.csv"], "No such file")],
+)
+def test_what_goes_wrong_is_said(arguments, words, capsys):
+    assert main(arguments) != 0
+    assert words in capsys.readouterr().err
+
+
+def test_the_template_and_the_columns_are_printed(capsys):
+    assert main(["many", "--template"]) == 0
+    assert len(read_list(capsys.readouterr().out.encode()).rows) == 5
+    with pytest.raises(SystemExit):
+        main(["many", "--help"])
+    assert "tau_D      present derivative time [time]" in capsys.readouterr().out
+
+
+def test_results_keep_all_digits():
+    (result,) = tune_chunk([{"k": 3, "theta": 1 / 3, "tau1": 7}])
+    (line,) = csv.DictReader(as_csv([result]).splitlines())
+    assert float(line["Kc"]) == result.controller.Kc
+    assert float(line["IAE_load"]) == result.performance.disturbance.IAE
+
+
+def test_order_of_worth():
+    """Unstable, fragile, then by the load IAE, those without present settings, and the refused."""
+    rows = [
+        {"tag": "refused"},
+        {"tag": "nothing known", "k": 1, "theta": 1, "tau1": 8},
+        {"tag": "good", "k": 1, "theta": 1, "tau1": 8, "Kc": 4, "tau_I": 8},
+        {"tag": "slow", "k": 1, "theta": 1, "tau1": 8, "Kc": 0.5, "tau_I": 8},
+        {"tag": "fragile", "k": 1, "theta": 1, "tau1": 8, "Kc": 9, "tau_I": 8},
+        {"tag": "unstable", "k": 1, "theta": 1, "tau1": 8, "Kc": 40, "tau_I": 8},
+    ]
+    found = sorted(map(cells, tune_chunk(rows)), key=worth)
+    assert [line["tag"] for line in found] == ["unstable", "fragile", "slow", "good", "nothing known", "refused"]
+
+
+def test_a_report_of_nothing():
+    assert "0 loops" in report([])
+
+
+def test_variants_are_the_same_in_every_chunk():
+    rows = [{"tag": f"L{i}", "k": 1, "theta": 1, "tau1": 8} for i in range(4)]
+    tune = TuneWithVariants(20, seed=5)
+    together = [result.robust for result in tune(rows)]
+    assert [tune([row])[0].robust for row in rows] == together
+    assert len(set(together)) == 4  # each loop has variants of its own
+
+
+def test_variants_are_judged_as_they_are():
+    """Share of stable loops against the certificate one by one, where a fifth of the gain decides."""
+    plant, controller = Plant(1, 1, integrators=1), SeriesPid(1.4, math.inf)  # stable below k theta = pi/2/1.4
+    found = robust(plant, controller, 60, (1, 2))
+    expected = [each.k * each.theta < math.pi / 2 / 1.4 for each in varied(plant, 60, (1, 2))]
+    assert found.stable == sum(expected) / 60
+    assert 0 < found.stable < 1
+    assert found.Ms_95 == math.inf
+    verdicts = [stability(Loop(each, controller)).verdict == "stable" for each in varied(plant, 60, (1, 2))]
+    assert verdicts == expected
+
+
+def test_variants_stay_within_their_spread():
+    for each in varied(Plant(2, 3, (8, 4)), 50, (7,), 0.1):
+        assert each.k == pytest.approx(2, rel=0.1 + 1e-12)
+        assert each.theta == pytest.approx(3, rel=0.1 + 1e-12)
+        assert each.lags[0] == pytest.approx(8, rel=0.1 + 1e-12)
+        assert each.lags[1] == 4

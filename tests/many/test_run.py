@@ -1,0 +1,96 @@
+"""Executors: the same results from all of them, and no row lost by a process that is gone."""
+
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from itertools import count, islice
+from multiprocessing import get_context
+
+import pytest
+
+from simc_core import tune_many
+from simc_core.errors import WrongType
+from tests.many.lists import mixed_rows
+from tests.many.workers import ends_its_process, fails_together, killed_once
+
+ROW = {"k": 1, "theta": 1, "tau1": 8}
+
+
+def pool() -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(1, get_context("spawn"))
+
+
+class Client:
+    """As a Dask client behaves: submit gives a future whose result may raise, map gives a list of futures."""
+
+    def submit(self, function, *args):
+        future: Future = Future()
+        try:
+            future.set_result(function(*args))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+    def map(self, function, things):
+        return [self.submit(function, thing) for thing in things]
+
+
+class Mapper:
+    """Has `map` alone."""
+
+    map = staticmethod(map)
+
+
+def told(results) -> list[tuple]:
+    return [
+        (result.tag, result.controller, result.margins and repr(result.margins), result.refusal) for result in results
+    ]
+
+
+def test_all_executors_give_the_same():
+    rows, _ = mixed_rows(40, 4, seed=3)
+    here = told(tune_many(rows, chunk=7))
+    assert [each[0] for each in here] == [row["tag"] for row in rows]
+    assert told(tune_many(rows, Client(), chunk=7)) == here
+    assert told(tune_many(rows, Mapper(), chunk=7)) == here
+    with ThreadPoolExecutor(2) as threads:
+        assert told(tune_many(rows, threads, chunk=7)) == here
+    with pool() as processes:
+        assert told(tune_many(rows, processes, chunk=7)) == here
+
+
+def test_a_row_that_ends_its_process_is_refused_alone():
+    rows = [{"tag": f"L{i}", **ROW} for i in range(30)]
+    rows[12]["tag"] = "deadly"
+    with pool() as processes:
+        results = list(tune_many(rows, processes, chunk=5, tune=ends_its_process))
+    assert [result.row for result in results] == rows
+    assert [result.tag for result in results if result.refusal] == ["deadly"]
+    assert "process ended" in results[12].refusal
+
+
+def test_a_worker_that_is_killed_loses_no_row(tmp_path):
+    rows = [{"tag": f"L{i}", **ROW} for i in range(30)]
+    rows[17]["kill"] = str(tmp_path / "killed")
+    with pool() as processes:
+        results = list(tune_many(rows, processes, chunk=5, tune=killed_once))
+    assert (tmp_path / "killed").exists()
+    assert [result.row for result in results] == rows
+    assert not any(result.refusal for result in results)
+
+
+@pytest.mark.parametrize("executor", [None, Client()])
+def test_a_chunk_that_fails_is_done_row_by_row(executor):
+    rows = [{"tag": f"L{i}", **ROW} for i in range(6)]
+    results = list(tune_many(rows, executor, chunk=3, tune=fails_together))
+    assert [result.tag for result in results] == [row["tag"] for row in rows]
+    assert not any(result.refusal for result in results)
+
+
+def test_rows_are_read_as_they_are_asked_for():
+    """An endless list, and the first results of it."""
+    endless = ({"tag": str(i), **ROW} for i in count())
+    assert [result.tag for result in islice(tune_many(endless, Client(), chunk=2), 3)] == ["0", "1", "2"]
+
+
+def test_an_executor_that_is_none():
+    with pytest.raises(WrongType, match="submit or map"):
+        tune_many([], executor=3)
