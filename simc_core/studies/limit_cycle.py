@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-PART = 0.3  # of the time after the last change, at the end of the course, in each of two windows
+PART = 0.25  # of the time after the last change, at the end of the course, in each of two windows
 LASTING = 0.9  # of the former window's swing; less is dying out
 CYCLES = 2  # at least, in the last window
 SMALLEST = 1e-7  # of the whole course's range; less is rounding

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from simc_core.certificate.verdict import stability
+from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.simulation import Scenario, TimeResponse, simulate
 from simc_core.simulation.actuator.actuation import (
@@ -26,7 +27,7 @@ from simc_core.simulation.simulate import on_grid
 from simc_core.studies.limit_cycle import LimitCycle, limit_cycle
 
 MOST_DOUBLINGS = 3
-FOR_SWINGS = 1  # doublings at least of an actuator that may keep up a swing: it is small and slow
+LONGER = 3.0  # times the time after the load, in which a swing of the actuator shows that it lasts
 MANY_STEPS = 2 * FEWEST_STEPS  # a course of more has a step that does not grow with the horizon, and is not doubled
 STILL = 0.02  # a response that moves less than this part of its range over the last fifth has come to rest
 FINE = 4000  # instants for the integral of the linear |e|: trapezoids, good to 1e-5
@@ -101,9 +102,8 @@ def _long_enough(loop: Loop, scenario: Scenario, quiet: Actuation, stable: bool)
     course = actuated(loop, quiet, inputs)
     if scenario.t_end is not None or scenario.disturbance_time is not None or not stable:
         return inputs, course
-    for doublings in range(MOST_DOUBLINGS):
-        seen = doublings >= FOR_SWINGS or not quiet.mechanical
-        if (seen and _at_rest(course, inputs)) or len(course.y) > MANY_STEPS:
+    for _ in range(MOST_DOUBLINGS):
+        if _at_rest(course, inputs) or len(course.y) > MANY_STEPS:
             break
         inputs = replace(inputs, disturbance_time=2 * inputs.disturbance_time, t_end=2 * inputs.t_end)
         course = actuated(loop, quiet, inputs)
@@ -140,8 +140,6 @@ def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuat
     e = np.abs(np.stack([inputs.r(course.t[:-1]), inputs.r(course.t[1:])], axis=1) - course.y)[whole]
     beyond = np.abs(noisy.v - np.clip(noisy.v, actuation.u_min, actuation.u_max))[whole]
     held = beyond > SAME_INSTANT * np.max(np.abs(noisy.u))
-    begin = inputs.disturbance_time + inputs.disturbance_ramp
-    cycle = limit_cycle(course.t[:-1][whole], course.y[whole, 0], begin) if actuation.mechanical else None
     moves = np.abs(np.diff(noisy.u[whole, 0])) if actuation.h else np.array([math.nan])
     return BuiltNumbers(
         (float(noisy.v[whole].min()), float(noisy.v[whole].max())),
@@ -152,5 +150,16 @@ def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuat
         float(moves.max(initial=0.0)),
         float(np.std((noisy.y - course.y)[whole, 1])),
         float(np.std((noisy.u - course.u)[whole, 1])),
-        cycle,
+        _cycle(loop, inputs, actuation) if actuation.mechanical else None,
     )
+
+
+def _cycle(loop: Loop, inputs: Inputs, actuation: Actuation) -> LimitCycle | None:
+    """The swing that is left when set point and load are long past."""
+    begin = inputs.disturbance_time + inputs.disturbance_ramp
+    longer = replace(inputs, t_end=inputs.t_end + LONGER * max(inputs.t_end - begin, 0.0))
+    try:
+        course = actuated(loop, replace(actuation, noise=0.0), longer)
+    except InvalidParameter:  # too many steps
+        return None
+    return limit_cycle(course.t[:-1], course.y[:, 0], begin)

@@ -78,6 +78,8 @@ def actuator_view(study: Study, design: Design) -> None:
     with explain_refusal():
         found = as_built(study.loop, design.actuator.scenario(design.excitation))
         st.html(numbers_html(found, design.sheet))
+        if found.numbers is not None and found.numbers.cycle:
+            st.info(cycle_in_words(found.numbers.cycle, design.sheet))
         left, right = st.columns(2, gap="small")
         with left:
             show(built_output_figure(found, HEIGHT), "built_y", "Output y of the loop as built and of the linear loop")
@@ -241,8 +243,6 @@ def explained(found: AsBuilt, study: Study, design: Design) -> str:
     if found.actuation.h:
         allows = "allows" if study.tuning.h else "can allow"
         lines.append(f"The half rule {allows} for the sampling, h/2 in θ: half rule page.")
-    if found.numbers is not None and found.numbers.cycle:
-        lines.append(cycle_in_words(found.numbers.cycle, design.sheet))
     if not actuator.on:
         lines.append("Nothing is limited yet: type a limit, a resolution, noise or a sampling period above.")
     return " ".join(lines)
@@ -250,7 +250,7 @@ def explained(found: AsBuilt, study: Study, design: Design) -> str:
 
 def cycle_in_words(cycle: LimitCycle, sheet: Sheet) -> str:
     """A swing that the actuator keeps up: what it is, and what it is not."""
-    swing = f"{number(cycle.swing, DIGITS)} {sheet.PV_unit}".rstrip()
+    swing = number(cycle.swing, DIGITS) + with_unit("", sheet.PV_unit)
     return (
         f"**Limit cycle:** y swings by {swing} from peak to peak, once in {time_text(cycle.period, sheet, DIGITS)}, "
         "and does not come to rest. It comes from the actuator and the integral action, not from the tuning. A finer "
