@@ -114,6 +114,7 @@ homes = st.builds(
     language=st.sampled_from(sorted(LANGUAGES)),
     exported=st.sampled_from(EXPORTED),
     between=st.sampled_from(["model", "PB"]),
+    scans=st.sampled_from([0, 1]),
     points=st.just(())
     | st.lists(st.tuples(gains, times, times), min_size=2, max_size=5).map(
         lambda rows: tuple((float(x), *row) for x, row in enumerate(rows))

@@ -290,7 +290,7 @@ PLACES: dict[str, tuple[str, str]] = {
     "filter_outer": ("cascade", "filter_outer"),
     **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
     **{name: ("record", name) for name in ("example", "structure", "begin", "end", "bad")},
-    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between")},
+    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between", "scans")},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
     "d_time": ("excitation", "load_time"),

@@ -8,7 +8,7 @@
                                                      separated by !
     example, structure, begin, end, bad              what is chosen of a record on the page From data
     origin                                           of a plant that was identified there
-    box, rounding, language, exported                what the settings are typed into, or written as
+    box, rounding, scans, language, exported         what the settings are typed into, or written as
     points, between                                  value~k~theta~tau1~tau2 of a gain schedule, separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default

@@ -11,11 +11,12 @@ import segno
 
 from pages.common.take_home.proof import table
 from pages.common.take_home.report.record import Report, Row
-from pages.common.take_home.report.svg import FAR, Curve, figure
+from pages.common.take_home.report.svg import FAR, HEIGHT, WIDTH, Curve, figure
 from simc_core.figures import palette
 
 STYLE = (Path(__file__).parent / "report.css").read_text(encoding="utf-8")
 PAPER = "@page { size: A4; margin: 12mm; }\nbody { margin: 0; }\n"
+LINE = 14  # px, of the texts of a picture
 LONGEST_IN_QR = 1000  # characters; more make a code that a telephone does not read from paper
 
 
@@ -71,6 +72,25 @@ def figures(report: Report) -> tuple[str, str]:
         limit = view["y"] if signal == "y" else _limit_of_u(report, view["y"])
         found.append(figure(curves, x_title, f"{signal} [{unit}]" if unit else signal, f"view_{signal}", limit))
     return found[0], found[1]
+
+
+def picture(report: Report) -> str:
+    """Both figures as one SVG, with plant and settings in it."""
+    settings = ", ".join(f"{row.name} {row.value} {row.unit}".rstrip() for row in report.typed or report.settings)
+    lines = [title(report), report.plant, f"{report.box or report.how}: {settings}"]
+    width, height = 2 * WIDTH, LINE * len(lines) + 8 + HEIGHT
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
+    ]
+    parts += [f'<rect width="{width}" height="{height}" fill="white"/>']
+    parts += [
+        f'<text x="8" y="{LINE * i}" font-family="sans-serif" font-size="10">{escape(line)}</text>'
+        for i, line in enumerate(lines, start=1)
+    ]
+    for i, svg in enumerate(figures(report)):
+        place = f'<svg x="{i * WIDTH}" y="{LINE * len(lines) + 8}" width="{WIDTH}" height="{HEIGHT}" '
+        parts.append(svg.replace("<svg ", place, 1))
+    return "".join([*parts, "</svg>"])
 
 
 def _drawn(report: Report) -> str:
