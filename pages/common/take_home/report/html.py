@@ -82,7 +82,7 @@ def picture(report: Report) -> str:
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
     ]
-    parts += [f'<rect width="{width}" height="{height}" fill="white"/>']
+    parts += [f'<rect {size} fill="white"/>']
     parts += [
         f'<text x="8" y="{LINE * i}" font-family="sans-serif" font-size="10">{escape(line)}</text>'
         for i, line in enumerate(lines, start=1)
