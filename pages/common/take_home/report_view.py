@@ -5,7 +5,7 @@ import streamlit as st
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.studies.single import Study
-from pages.common.take_home.report.html import STYLE, body, document
+from pages.common.take_home.report.html import STYLE, body, document, picture
 from pages.common.take_home.report.record import report
 from pages.common.take_home.report.texts import curves_csv, markdown, settings_csv
 
@@ -13,6 +13,7 @@ FILES = (  # label, ending, kind, from the record
     ("HTML, to print", "html", "text/html", document),
     ("Markdown", "md", "text/markdown", markdown),
     ("Settings as CSV", "csv", "text/csv", settings_csv),
+    ("Figures as SVG", "svg", "image/svg+xml", picture),
     ("Curves as CSV", "curves.csv", "text/csv", curves_csv),
 )
 
