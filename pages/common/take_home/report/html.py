@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from io import BytesIO
 from pathlib import Path
+from textwrap import wrap
 
 import numpy as np
 import segno
@@ -16,7 +17,7 @@ from simc_core.figures import palette
 
 STYLE = (Path(__file__).parent / "report.css").read_text(encoding="utf-8")
 PAPER = "@page { size: A4; margin: 12mm; }\nbody { margin: 0; }\n"
-LINE = 14  # px, of the texts of a picture
+LINE, CHARACTERS = 14, 105  # px and length, of the texts of a picture
 LONGEST_IN_QR = 1000  # characters; more make a code that a telephone does not read from paper
 
 
@@ -77,11 +78,11 @@ def figures(report: Report) -> tuple[str, str]:
 def picture(report: Report) -> str:
     """Both figures as one SVG, with plant and settings in it."""
     settings = ", ".join(f"{row.name} {row.value} {row.unit}".rstrip() for row in report.typed or report.settings)
-    lines = [title(report), report.plant, f"{report.box or report.how}: {settings}"]
+    texts = (title(report), report.plant, f"{report.box or report.how}: {settings}")
+    lines = [line for text in texts for line in wrap(text, CHARACTERS)]
     width, height = 2 * WIDTH, LINE * len(lines) + 8 + HEIGHT
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
-    ]
+    size = f'width="{width}" height="{height}"'
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" {size}>']
     parts += [f'<rect {size} fill="white"/>']
     parts += [
         f'<text x="8" y="{LINE * i}" font-family="sans-serif" font-size="10">{escape(line)}</text>'
