@@ -1,5 +1,7 @@
 """The report of the loop: files to keep, and how it looks on paper."""
 
+from functools import partial
+
 import streamlit as st
 
 from pages.common.session import state
@@ -24,6 +26,6 @@ def report_view(design: Design, present: Study) -> None:
     name = "".join(c if c.isalnum() else "_" for c in design.sheet.tag) or "loop"
     with st.container(horizontal=True, gap="small"):
         for label, ending, kind, make in FILES:
-            st.download_button(label, make(found), f"{name}.{ending}", kind, key=f"report_{ending}")
+            st.download_button(label, partial(make, found), f"{name}.{ending}", kind, key=f"report_{ending}")
     st.caption("A PDF is made by the print command of the browser, from the HTML file.")
     st.html(f"<style>{STYLE}</style>{body(found)}")
