@@ -139,7 +139,7 @@ def stability_many(loops: Sequence[Loop]) -> list[Stability]:
     InvalidParameter
         Where `stability` does for one of them.
     """
-    return _verdicts([[loop.L] for loop in loops])
+    return count_unstable_many([[loop.L] for loop in loops])
 
 
 def count_unstable(terms: Sequence[Factored]) -> Stability:
@@ -163,11 +163,11 @@ def count_unstable(terms: Sequence[Factored]) -> Stability:
     InvalidParameter
         The loop is ill-posed, or would cost more than winding.MOST_SEGMENTS.
     """
-    return _verdicts([terms])[0]
+    return count_unstable_many([terms])[0]
 
 
-def _verdicts(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
-    """count_unstable of each."""
+def count_unstable_many(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
+    """count_unstable of each, worked on together. Raises InvalidParameter where it does for one of them."""
     loops = [[term for term in terms if term.gain] for terms in loops]
     functions = [characteristic(terms) for terms in loops]
     found = [_at_infinity(f) for f in functions]

@@ -22,9 +22,9 @@ STYLE = Path(__file__).with_name("report.css").read_text(encoding="utf-8")
 MOST_LINES, MOST_SHEETS = 20_000, 2_000
 WORTH = 1.5  # load IAE now over new, from which it is told
 IN_SUMMARY = {
-    "not stable": "not stable with their present settings",
-    "fragile": f"with Ms above {LARGEST_MS:g} now",
-    "slow oscillation": "that oscillate slowly now",
+    "not stable": "not stable now",
+    "fragile": f"fragile now (Ms above {LARGEST_MS:g})",
+    "slow oscillation": "oscillating slowly now",
 }
 TONES = {"not stable": "alarm", "fragile": "alarm", "slow oscillation": "attention"}
 SETTINGS = {"Kc": "Kc", "tau_I": "τI", "tau_D": "τD", "tau_F": "τF", "K_I": "K_I"}

@@ -17,8 +17,8 @@ from simc_core.many.alone import Alone
 from simc_core.many.result import Result, refused
 from simc_core.many.tune_rows import tune_chunk
 
-ROWS = 100  # of a chunk: a fraction of a second
-ON_THEIR_WAY = 16  # chunks given to workers and not yet fetched
+ROWS = 400  # of a chunk: half a second; with fewer, too few loops have the same structure
+ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched
 
 Row = Mapping[str, Any]
 TuneChunk = Callable[[Sequence[Row]], list[Result]]

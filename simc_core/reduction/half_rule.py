@@ -152,6 +152,9 @@ def _reduce(
     """All candidates, smallest delay first, one of them chosen, and how that one came about."""
     if rules == "1998":
         found = [_at_1998(parts, order, h)]
+    elif not parts.leads:  # nothing depends on the theta that is assumed
+        trial = _at(parts, order, h, 0.0)
+        found = [resolved(trial, trial.theta.at)]
     else:
         found = _self_consistent(lambda theta: _at(parts, order, h, theta), _longest_delay(parts, h))
     models = [model_of(parts, trial) for trial in found]
