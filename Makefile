@@ -14,15 +14,16 @@ run: $(VENV)/run.stamp
 	else echo "Open to everybody who reaches this machine: http://$$(hostname):$(PORT). For a class see deploy/README.md"; fi
 	$(BIN)/streamlit run app.py --server.address $(HOST) --server.port $(PORT)
 
-# Browser tests last: they are the slowest, and the others say more exactly what broke.
+# Browser tests last: the others say more exactly what broke. Each worker has a server and a browser of its own.
 test: $(VENV)/dev.stamp lint chromium nginx systemd-analyze node gcc g++ avr-gcc octave
 	$(BIN)/python -m pytest tests simc_core --doctest-modules --ignore=tests/browser --ignore=tests/server/outgoing -n auto
-	$(BIN)/python -m pytest tests/browser
+	$(BIN)/python -m pytest tests/browser -n auto --dist loadgroup
 
 lint: $(VENV)/dev.stamp node_modules/.stamp
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports --no-cache
+	$(BIN)/mypy
 	node_modules/.bin/biome check
 
 doctest: $(VENV)/dev.stamp
@@ -59,7 +60,7 @@ licences: $(VENV)/run.stamp
 	$(BIN)/python -m deploy.licences
 
 clean:
-	rm -rf $(VENV) node_modules .pytest_cache .ruff_cache .hypothesis docs/_build
+	rm -rf $(VENV) node_modules .mypy_cache .pytest_cache .ruff_cache .hypothesis docs/_build
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV) || { echo "No venv here: apt-get install python3-venv"; exit 1; }

@@ -21,7 +21,8 @@ def instrument(present: CascadeStudy) -> None:
     """Sliders, figures and panels that follow the hand."""
     live.cascade_instrument(present.cascade)
     if present.sound:
-        st.caption(sentence(present))
+        with st.container(key="told"):
+            st.caption(sentence(present))
 
 
 def figures(present: CascadeStudy) -> None:
@@ -38,7 +39,7 @@ present, refusal = attempt(design.cascade)
 picture = st.container()
 with st.container(key="cascade"):
     controls, view = st.columns([4, 11], gap="medium")
-with controls:
+with controls, st.container(key="decided"):
     cascade_widgets.blocks()
     cascade_widgets.method()
     cascade_widgets.loops(present, slider=state.widget("cascade_views", "Live") != "Live")

@@ -9,19 +9,25 @@ from pages.common.shell import header
 from pages.common.studies.single import Study, present_study
 from pages.common.take_home import view as take_home
 from pages.common.take_home.code import code
+from pages.common.take_home.way_out import way_out
+from simc_core.errors import FormError
 
 VIEWS = ("Settings", "Code")
 
 
 def in_the_box(design: Design, present: Study) -> None:
-    """What is typed, the proof, what to mind."""
+    """What is typed, the proof, what to mind; or what can be done where the box has no such form."""
     if not design.box:
         st.info(
             "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
             "numbers are another controller in another box."
         )
         return
-    found = take_home.numbers(design, present)
+    try:
+        found = take_home.numbers(design, present)
+    except FormError as error:
+        way_out(design, present, error)
+        return
     take_home.proof(design, present, found)
     take_home.notes(design, found)
 

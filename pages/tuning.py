@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common.parts.refusals import explain_refusal
+from pages.common.plant.entry import plant_entry
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.shell import header
@@ -24,6 +25,8 @@ VIEWS = ("Live", "Bode of L", "Model error", "As built", "Compare")
 
 def decide(design: Design, made: Study | None, present: Study | None) -> Study | None:
     """What is to be decided, and what it comes to. Returns the settings in the plant now, if they were told."""
+    with st.popover("Change the plant", width="stretch"):
+        plant_entry()
     source_control(made)
     if design.source == "own":
         my_settings(made)
@@ -46,7 +49,8 @@ def decide(design: Design, made: Study | None, present: Study | None) -> Study |
 def look(design: Design, present: Study, baseline: Study | None) -> None:
     """The views; only the open one is made."""
     if baseline:
-        st.markdown(f"**Against the settings now:** {change_in_words(baseline, present)}")
+        with st.container(key="told"):
+            st.markdown(f"**Against the settings now:** {change_in_words(baseline, present)}")
     behind = [*([(NOW, baseline)] if baseline else []), *pinned_studies(design.plant, design.pins)]
     studies = [("present", present), *behind]
     instrument, bode, error, built, table = st.tabs(VIEWS, key="views", on_change="rerun")
@@ -92,7 +96,7 @@ with st.container(key="tuning"):
 baseline = None
 with controls:
     mark(design, "wide")
-    with explain_refusal():
+    with st.container(key="decided"), explain_refusal():
         baseline = decide(design, made, present)
 with view:
     if present is None:

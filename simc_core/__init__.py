@@ -6,9 +6,11 @@ from simc_core.certificate.verdict import NestedStability, Stability, count_unst
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import (
     BoxError,
+    DataError,
     FormError,
     InvalidParameter,
     NoOptimum,
+    NotIdentifiable,
     NotReducible,
     NotStable,
     OutOfDomain,
@@ -17,6 +19,17 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.identification.experiments.relay import Relay, relay_from_trend, relay_test
+from simc_core.identification.experiments.retune_oscillation import retune_oscillation
+from simc_core.identification.experiments.setpoint_overshoot import setpoint_overshoot
+from simc_core.identification.graphical import ByHand, by_hand
+from simc_core.identification.identified import Identified
+from simc_core.identification.identify import identify
+from simc_core.identification.moves import find_moves
+from simc_core.identification.rank import identify_all
+from simc_core.identification.reading.reader import read_trend
+from simc_core.identification.robust_tau_c import ms_of_cloud, robust_tau_c
+from simc_core.identification.trend import Trend
 from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.convert import Typed, from_box, to_box
@@ -34,7 +47,7 @@ from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import Performance, performance
 from simc_core.metrics.step_metrics import StepMetrics
 from simc_core.numbers import read_number, read_numbers
-from simc_core.optimal.robust_gains import gain_intervals, robust_region
+from simc_core.optimal.robust_region import gain_intervals, robust_region
 from simc_core.optimal.stability_limit import stability_limit
 from simc_core.optimal.under_ms import Optimum
 from simc_core.plants.models import (
@@ -58,7 +71,8 @@ from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
 from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
-from simc_core.studies.comparison import EqualRobustness, at_equal_robustness, comparison
+from simc_core.studies.comparison import comparison
+from simc_core.studies.equal_robustness import EqualRobustness, at_equal_robustness
 from simc_core.studies.optimum import optimal, trade_off
 from simc_core.studies.sweep import Sweep, sweep
 from simc_core.studies.tune import tune

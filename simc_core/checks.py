@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from numbers import Real
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core.errors import InvalidParameter
 
@@ -13,14 +14,17 @@ LARGEST_GAIN = 1e12  # largest gain, and inverse of the smallest
 MOST_FACTORS = 40  # poles of a plant; beyond that no number below would be worth reading
 
 
-def real(name: str, value, low: float = -math.inf, high: float = math.inf) -> float:
+def real(name: str, value: object, low: float = -math.inf, high: float = math.inf) -> float:
     """`value` as a finite float in [low, high].
 
     Raises InvalidParameter: the message names the field, the bound and the value.
     """
-    if type(value) is not float and (isinstance(value, bool) or not isinstance(value, Real)):
+    if type(value) is float:
+        number = value
+    elif isinstance(value, Real) and not isinstance(value, bool):
+        number = float(value)
+    else:
         raise InvalidParameter(f"{name} must be a number, got {_shown(value)}")
-    number = float(value)
     if not math.isfinite(number):
         raise InvalidParameter(f"{name} must be finite, got {number}")
     if number < low:
@@ -30,7 +34,7 @@ def real(name: str, value, low: float = -math.inf, high: float = math.inf) -> fl
     return number
 
 
-def magnitude(name: str, value, largest: float) -> float:
+def magnitude(name: str, value: object, largest: float) -> float:
     """`value` as a nonzero float, 1/largest <= |value| <= largest."""
     number = real(name, value)
     if number == 0:
@@ -40,17 +44,17 @@ def magnitude(name: str, value, largest: float) -> float:
     return number
 
 
-def gain(name: str, value) -> float:
+def gain(name: str, value: object) -> float:
     """A nonzero gain."""
     return magnitude(name, value, LARGEST_GAIN)
 
 
-def time_constant(name: str, value) -> float:
+def time_constant(name: str, value: object) -> float:
     """A nonzero time constant of either sign."""
     return magnitude(name, value, LONGEST_TIME)
 
 
-def positive_time(name: str, value) -> float:
+def positive_time(name: str, value: object) -> float:
     """A time constant > 0."""
     number = time_constant(name, value)
     if number < 0:
@@ -58,7 +62,7 @@ def positive_time(name: str, value) -> float:
     return number
 
 
-def optional_time(name: str, value) -> float:
+def optional_time(name: str, value: object) -> float:
     """A time >= 0: zero, or not below the smallest time the core works with."""
     number = real(name, value, low=0.0, high=LONGEST_TIME)
     if 0 < number < 1 / LONGEST_TIME:
@@ -66,7 +70,7 @@ def optional_time(name: str, value) -> float:
     return number
 
 
-def whole(name: str, value, low: int, high: int) -> int:
+def whole(name: str, value: object, low: int, high: int) -> int:
     """`value` as an int in [low, high]."""
     number = real(name, value, low, high)
     if number != int(number):
@@ -74,7 +78,7 @@ def whole(name: str, value, low: int, high: int) -> int:
     return int(number)
 
 
-def items(name: str, values, most: int = MOST_FACTORS) -> tuple:
+def items(name: str, values: object, most: int = MOST_FACTORS) -> tuple:
     """`values` as a tuple of at most `most` items."""
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InvalidParameter(f"{name} must be a list of numbers, got {_shown(values)}")
@@ -84,7 +88,7 @@ def items(name: str, values, most: int = MOST_FACTORS) -> tuple:
     return given
 
 
-def array(name: str, values, most: int) -> np.ndarray:
+def array(name: str, values: ArrayLike, most: int) -> np.ndarray:
     """`values` as an array of floats, shape (n,), 1 <= n <= most; one number is an array of one."""
     try:
         found = np.atleast_1d(np.asarray(values, dtype=float))
@@ -95,6 +99,6 @@ def array(name: str, values, most: int) -> np.ndarray:
     return found
 
 
-def _shown(value) -> str:
+def _shown(value: object) -> str:
     text = repr(value)
     return text if len(text) <= 40 else text[:37] + "..."

@@ -44,6 +44,10 @@ class NoOptimum(SimcError):
     """No controller is best under the bound: none meets it, or ever better ones do."""
 
 
+class NotIdentifiable(SimcError):
+    """A trend from which no numbers may be given; the message says why, and what to record instead."""
+
+
 class RuleEnds(InvalidParameter):
     """SIMC has no setting for this model; `change` is a change of the design that has one, {} if none is known."""
 
@@ -60,3 +64,13 @@ class BoxError(SimcError):
         self.field = field
         self.value = value
         self.nearest = nearest
+
+
+class DataError(SimcError):
+    """A file or a paste that is no trend; `line` and `column` count from 1, None where there is no such place."""
+
+    def __init__(self, message: str, line: int | None = None, column: int | None = None):
+        place = " ".join(f"{name} {at}" for name, at in (("line", line), ("column", column)) if at is not None)
+        super().__init__(f"{place}: {message}" if place else message)
+        self.line = line
+        self.column = column

@@ -11,6 +11,8 @@ factors: one polynomial of order 12 has lost its small time constants to roundin
 This module alone imports python-control (2 s); `simc_core` does not import it.
 """
 
+from typing import TypeAlias
+
 import control
 import numpy as np
 from scipy import signal
@@ -28,7 +30,7 @@ RATIONAL = (control.TransferFunction, control.StateSpace, signal.lti)
 NEGLIGIBLE = 1e-11  # of the fastest pole: an integrator that rounding moved
 INFINITE = 1e9  # times the fastest pole: a zero that rounding brought in from infinity
 
-System = control.TransferFunction | control.StateSpace | signal.lti
+System: TypeAlias = control.TransferFunction | control.StateSpace | signal.lti
 
 
 def to_tf(system: Plant | Controller, pade_order: int | None = None) -> control.TransferFunction:

@@ -5,6 +5,7 @@ real time constants that it is.)
 """
 
 import math
+from collections.abc import Callable
 from decimal import Decimal  # 28 digits by default, enough for any zeta
 from fractions import Fraction
 from itertools import groupby
@@ -205,5 +206,5 @@ def _latex_controller(controller: Controller, digits: int) -> str:
             return rf"\left({total}\right)" + _latex_filter(tau_F, show) if tau_F else total
 
 
-def _latex_filter(tau_F: float, show) -> str:
+def _latex_filter(tau_F: float, show: Callable[[float], str]) -> str:
     return rf" \frac{{1}}{{{times_s(show(tau_F))} + 1}}" if tau_F else ""

@@ -23,6 +23,12 @@ def read_back(plant: Plant) -> str:
     str
         For instance "gain 2.2, lags 180 and 5, dead time 20": plain text, times in the user's own unit. The gain is
         that of G(s) s^n with n integrators; a negative time constant is that of tau s + 1.
+
+    Examples
+    --------
+    >>> from simc_core import Plant, read_back
+    >>> read_back(Plant(2.2, 20, (180, 5)))
+    'gain 2.2, lags 180 and 5, dead time 20'
     """
     parts = [f"gain {_shown(plant.k)}"]
     if plant.integrators:

@@ -1,5 +1,6 @@
-"""Docstrings of the public functions are numpydoc: every parameter is named, and what is returned."""
+"""Docstrings of the public names are numpydoc: parameters, fields and results are named; there are examples."""
 
+import dataclasses
 import inspect
 import re
 
@@ -8,6 +9,7 @@ import pytest
 import simc_core
 
 FUNCTIONS = {name: value for name, value in vars(simc_core).items() if inspect.isfunction(inspect.unwrap(value))}
+CLASSES = {name: value for name, value in vars(simc_core).items() if dataclasses.is_dataclass(value)}
 
 
 def sections(text: str) -> dict[str, str]:
@@ -15,12 +17,33 @@ def sections(text: str) -> dict[str, str]:
     return dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
+def documented(name: str) -> dict[str, str]:
+    return sections(inspect.getdoc(inspect.unwrap(getattr(simc_core, name))))
+
+
+def named(section: str) -> list[str]:
+    heads = re.findall(r"^\*{0,2}(\w+(?:, \w+)*) : \S", section, flags=re.MULTILINE)
+    return [name for head in heads for name in head.split(", ")]
+
+
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_parameters_and_results_are_named(name):
-    function = inspect.unwrap(FUNCTIONS[name])
-    found = sections(inspect.getdoc(function))
-    heads = re.findall(r"^\*{0,2}(\w+(?:, \w+)*) : \S", found["Parameters"], flags=re.MULTILINE)
-    named = [parameter for head in heads for parameter in head.split(", ")]
-    assert set(named) == set(inspect.signature(function).parameters)
-    assert len(named) == len(set(named))
+    found = documented(name)
+    parameters = named(found["Parameters"])
+    assert set(parameters) == set(inspect.signature(FUNCTIONS[name]).parameters)
+    assert len(parameters) == len(set(parameters))
     assert found["Returns"].strip()
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_fields_are_named(name):
+    found = documented(name)
+    fields = named(found.get("Parameters", "") + found.get("Attributes", ""))
+    assert sorted(fields) == sorted(field.name for field in dataclasses.fields(CLASSES[name]))
+
+
+@pytest.mark.parametrize("name", [*FUNCTIONS, *(name for name in CLASSES if "Parameters" in documented(name))])
+def test_there_is_an_example_that_uses_the_name(name):
+    """`make doctest` runs them. Classes with Attributes are results, which a user reads and does not make."""
+    lines = [line for line in documented(name)["Examples"].splitlines() if line.startswith((">>> ", "... "))]
+    assert any(re.search(rf"\b{name}\b", line) for line in lines if " import " not in line)

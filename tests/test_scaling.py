@@ -219,7 +219,7 @@ def test_advice(plant, order, speed, T, gain):
     found = advice(tuned(plant.rescaled(T, gain), order, speed=speed, filter=0.05))
     assert [(item.level, item.quantity) for item in found] == [(item.level, item.quantity) for item in before]
     for now, then in zip(found, before, strict=True):
-        factor = {"tau_c": float(T), "Noise gain Kd/tau_F": 1 / abs(gain)}.get(then.quantity, 1.0)
+        factor = {"tau_c": float(T), "High-frequency gain Kd/tau_F": 1 / abs(gain)}.get(then.quantity, 1.0)
         assert same((now.value, now.limit), (factor * then.value, factor * then.limit), 1e-6), then.quantity
         assert now.change.keys() == then.change.keys()
 

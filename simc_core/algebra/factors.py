@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import zip_longest
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 Row = tuple[float, float, float]
 
@@ -34,7 +35,7 @@ class Factored:
             self.theta + other.theta,
         )
 
-    def __call__(self, s) -> np.ndarray:
+    def __call__(self, s: ArrayLike) -> np.ndarray:
         """F(s), complex, shape of s. On a pole the value is infinite, without a warning."""
         s = np.asarray(s, dtype=complex)
         value = np.full(s.shape, complex(self.gain))

@@ -62,7 +62,7 @@ def _time_constants(roots: list[complex]) -> tuple[list[float], list[tuple[float
     return times, [(1 / abs(root), -root.real / abs(root)) for root in roots if root.imag > 0]
 
 
-def _trimmed(name: str, polynomial) -> np.ndarray:
+def _trimmed(name: str, polynomial: object) -> np.ndarray:
     given = checks.items(name, polynomial, checks.MOST_FACTORS + 1)
     values = [checks.real(f"{name} coefficient", value) for value in given]
     coefficients = np.trim_zeros(np.array(values), "f")
@@ -108,10 +108,11 @@ def _roots(exact: Polynomial) -> list[complex]:
         raise InvalidParameter(f"coefficients of one polynomial must be of comparable size, got {sizes}")
     roots = np.roots(scaled)
     merged = _merged(roots, scaled)
-    if merged is None:
-        unit = Fraction(scale)
-        merged = polished(tuple(c * unit**i for i, c in enumerate(exact)), roots.tolist())
-    return [complex(root) * scale for root in merged]
+    if merged is not None:
+        return [complex(root) * scale for root in merged]
+    unit = Fraction(scale)
+    apart = polished(tuple(c * unit**i for i, c in enumerate(exact)), roots.tolist())
+    return [root * scale for root in apart]
 
 
 def _quadratic(a: float, b: float, c: float) -> list[complex]:

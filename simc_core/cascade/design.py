@@ -13,7 +13,7 @@ from typing import Any
 
 from simc_core import checks
 from simc_core.certificate.verdict import NestedStability, Stability, stability
-from simc_core.controllers.forms import Controller, ParallelPid
+from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.notation import DIGITS, number, rounded_up
@@ -32,9 +32,22 @@ LOWEST_MS, HIGHEST_MS = 1.05, 10.0
 
 @dataclass(frozen=True, slots=True)
 class CascadeDesign:
-    """A cascade and how it came about. tau_c of SIMC, lambda of the direct synthesis; None for the other method.
+    """A cascade and how it came about.
 
-    models: of SIMC, the reduced models of Gb and of the outer plant.   notes: what the designer should know, in words.
+    Attributes
+    ----------
+    loop : CascadeLoop
+        Both loops.
+    inner, outer : controller
+        The controllers in it.
+    tau_c_inner, tau_c_outer : float or None
+        Of SIMC, in the user's time unit; None for direct synthesis.
+    lambda_inner, lambda_outer : float or None
+        Of direct synthesis, in the user's time unit; None for SIMC.
+    models : tuple of two reduced models, or None
+        Of SIMC: those of Gb and of the outer plant.
+    notes : tuple of str
+        What the designer should know, in words.
     """
 
     loop: CascadeLoop
@@ -163,9 +176,18 @@ def synthesis_cascade(
     References
     ----------
     [PSB].
+
+    Examples
+    --------
+    Pair 1 of [PSB], where Kp = 3.3928 is printed for the inner loop:
+
+    >>> from simc_core import Plant, synthesis_cascade
+    >>> design = synthesis_cascade(Plant(2, 2, (5,)), Plant(1, 1, (2, 3)))
+    >>> round(design.loop.inner.Kp, 4)
+    3.3928
     """
 
-    asked = {
+    asked: dict[str, Any] = {
         "Ms_inner": Ms_inner, "Ms_outer": Ms_outer, "inner": inner, "outer": outer, "N_inner": N_inner,
         "N_outer": N_outer, "lambda_inner": lambda_inner, "lambda_outer": lambda_outer, "b": b,
     }  # fmt: skip
@@ -201,7 +223,7 @@ def _synthesised(
 
     lambda_b = _speed("lambda_inner", lambda_inner, "Ms_inner", Ms_inner, inside, secondary.total_time or 1.0)
     closed = inside(lambda_b)
-    Cb = closed.controllers[0]
+    Cb = closed.outermost
     tau_F = float(numerator(secondary, lambda_b)[1]) if N_outer is None and secondary.order else None
     N = 20.0 if N_outer is None else N_outer
 
@@ -217,7 +239,7 @@ def _synthesised(
         outside,
         (primary.total_time or 1.0) + secondary.theta + lambda_b,
     )
-    Ca = outside(lambda_a).controllers[1]
+    Ca = outside(lambda_a).outermost
     loop = CascadeLoop(primary, secondary, Ca, Cb)
     return CascadeDesign(loop, Cb, Ca, lambda_inner=lambda_b, lambda_outer=lambda_a)
 
@@ -242,17 +264,19 @@ def _tuned(
         return closed(_filtered(simc(model, speed), speed))
 
     found = _speed(f"tau_c_{loop}", tau_c, f"Ms_{loop}", Ms, at, scale)
-    return at(found).controllers[-1], found
+    return at(found).outermost, found
 
 
-def _filtered(controller: Controller, tau_c: float) -> Controller:
+def _filtered(controller: SeriesPid | IdealPid | IController, tau_c: float) -> Controller:
     """With the filter of a PID."""
-    if "tau_F" not in controller.OPTIONAL or controller.tau_D == 0:
+    if isinstance(controller, IController) or controller.tau_D == 0:
         return controller
     return replace(controller, tau_F=tau_c / FILTER)
 
 
-def _speed(name: str, given: float | None, Ms_name: str, Ms: float | None, at, scale: float) -> float:
+def _speed(
+    name: str, given: float | None, Ms_name: str, Ms: float | None, at: Callable[[float], NestedLoops], scale: float
+) -> float:
     """lambda or tau_c as given, else the one Ms asks for."""
     if given is not None:
         return checks.positive_time(name, given)
@@ -300,7 +324,9 @@ def _on_dead_time(name: str, block: Plant, theta: float) -> list[str]:
 
 
 def _on_inner(loop: CascadeLoop) -> list[str]:
-    found = stability(loop.nested.inside)
+    inside = loop.nested.inside
+    assert inside is not None  # both methods design an inner loop
+    found = stability(inside)
     if found.verdict == "stable":
         return []
     return [
@@ -333,4 +359,4 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
         return NestedLoops((product,), (direct_synthesis(product, lambda_, kind),))
 
     lambda_ = smallest_speed_with_peak(at, Ms, product.total_time or 1.0, "lambda", "Ms")
-    return CascadeLoop(primary, secondary, at(lambda_).controllers[0], None)
+    return CascadeLoop(primary, secondary, at(lambda_).outermost, None)

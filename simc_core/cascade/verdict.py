@@ -58,5 +58,5 @@ def cascade_verdict(
     cascade: NestedPerformance, Ms_outer: float, Ms_inner: float, single: NestedPerformance, Ms_single: float
 ) -> CascadeVerdict:
     """Compare a sound cascade with the single loop round the same blocks; both must be stable."""
-    both = [(each.setpoint.IAE, each.disturbance.IAE, each.disturbance2.IAE) for each in (cascade, single)]
-    return CascadeVerdict(*both, Ms_outer, Ms_inner, Ms_single)
+    ours, alone = [(each.setpoint.IAE, each.disturbance.IAE, each.disturbance2.IAE) for each in (cascade, single)]
+    return CascadeVerdict(ours, alone, Ms_outer, Ms_inner, Ms_single)

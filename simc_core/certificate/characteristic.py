@@ -143,7 +143,7 @@ def _starred(row: Row, corner: float) -> Row:
     return (0.0, abs(b), abs(c) or corner * abs(b)) if b else (0.0, 0.0, abs(c))
 
 
-def _corner(terms, tops: list[list[Row]], bottoms: list[list[Row]], common: list[Row]) -> float:
+def _corner(terms: Sequence[Factored], tops: list[list[Row]], bottoms: list[list[Row]], common: list[Row]) -> float:
     """Frequency at which the integrators of the loop have gain 1: there s becomes s + corner."""
     at_origin = _at_origin(common)
     if at_origin:

@@ -42,9 +42,18 @@ SAME = 1e-14  # relative, of coefficients that were the same before they were ro
 
 @dataclass(frozen=True, slots=True)
 class ClosedLoopPole:
-    """s: the pole, Im s >= 0 (its conjugate is implied). zeta = -Re s/abs(s), omega_n = abs(s); zeta 0 at the origin.
+    """A pole of the closed loop; of a complex pair the one above the real axis.
 
-    cancelled: a zero of the controller hides it from the set-point response; a load disturbance excites it.
+    Attributes
+    ----------
+    s : complex
+        The pole, in rad per time unit, Im s >= 0.
+    zeta : float
+        -Re s/abs(s); 0 at the origin.
+    omega_n : float
+        abs(s), in rad per time unit.
+    cancelled : bool
+        A zero of the controller hides it from the set-point response; a load disturbance excites it.
     """
 
     s: complex
@@ -70,6 +79,15 @@ def dominant_poles(loop: Loop, most: int = 8) -> tuple[ClosedLoopPole, ...]:
     -------
     tuple of ClosedLoopPole
         In rad per time unit.
+
+    Examples
+    --------
+    Poles under L = e^{-s}/(2 s) solve s e^s = -1/2: Lambert's W. The lag that the controller cancels is one too:
+
+    >>> from simc_core import Loop, Plant, SeriesPid, dominant_poles
+    >>> cancelled, slowest = dominant_poles(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)), most=2)
+    >>> cancelled.s, complex(round(slowest.s.real, 6), round(slowest.s.imag, 6))
+    ((-0.125+0j), (-0.794024+0.770112j))
     """
     L = loop.L
     if L.relative_degree < 0:

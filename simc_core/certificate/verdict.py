@@ -20,7 +20,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Literal
+from typing import Literal, overload
 
 from simc_core.algebra.factors import Factored
 from simc_core.certificate.characteristic import Characteristic, characteristic, shifted
@@ -39,10 +39,16 @@ Verdict = Literal["stable", "unstable", "marginal"]
 
 @dataclass(frozen=True, slots=True)
 class Stability:
-    """verdict, and the number of closed-loop poles with positive real part (math.inf where they are countless).
+    """A certified verdict on a loop.
 
-    marginal: poles on the imaginary axis within rounding, none to the right of it.
-    neutral: abs(L(inf)) of the part with dead time; 0 for the usual, retarded loop.
+    Attributes
+    ----------
+    verdict : {"stable", "unstable", "marginal"}
+        marginal: poles on the imaginary axis within rounding, none to the right of it.
+    unstable_poles : int, or math.inf where they are countless
+        Number of closed-loop poles with positive real part.
+    neutral : float
+        abs(L(inf)) of the part with dead time; 0 for the usual, retarded loop.
     """
 
     verdict: Verdict
@@ -52,7 +58,15 @@ class Stability:
 
 @dataclass(frozen=True, slots=True)
 class NestedStability:
-    """As Stability, of all loops closed; inner: of the next loop inside on its own, None where there is none."""
+    """A certified verdict on nested loops, all of them closed.
+
+    Attributes
+    ----------
+    verdict, unstable_poles, neutral : str, int or float, float
+        As in Stability.
+    inner : Stability, NestedStability or None
+        Of the next loop inside on its own, None where there is none.
+    """
 
     verdict: Verdict
     unstable_poles: int | float
@@ -68,7 +82,11 @@ class NestedStability:
         return self.verdict == "stable" and inside
 
 
-def stability(loop: Loop | CascadeLoop | NestedLoops) -> "Stability | NestedStability":
+@overload
+def stability(loop: Loop) -> Stability: ...
+@overload
+def stability(loop: CascadeLoop | NestedLoops) -> NestedStability: ...
+def stability(loop: Loop | CascadeLoop | NestedLoops) -> Stability | NestedStability:
     """Whether a loop is stable, by the argument principle, with its dead time exact.
 
     Parameters
@@ -138,6 +156,13 @@ def stability_many(loops: Sequence[Loop]) -> list[Stability]:
     ------
     InvalidParameter
         Where `stability` does for one of them.
+
+    Examples
+    --------
+    >>> from simc_core import Loop, Plant, SeriesPid, stability_many
+    >>> loops = [Loop(Plant(1, 1, integrators=1), SeriesPid(Kc, float("inf"))) for Kc in (1.57, 1.58)]
+    >>> [each.verdict for each in stability_many(loops)]
+    ['stable', 'unstable']
     """
     return count_unstable_many([[loop.L] for loop in loops])
 
@@ -162,6 +187,14 @@ def count_unstable(terms: Sequence[Factored]) -> Stability:
     ------
     InvalidParameter
         The loop is ill-posed, or would cost more than winding.MOST_SEGMENTS.
+
+    Examples
+    --------
+    A gain in series with e^{-s}/s: above pi/2 one pair of poles has crossed the axis.
+
+    >>> from simc_core import Loop, Plant, SeriesPid, count_unstable
+    >>> count_unstable([Loop(Plant(1, 1, integrators=1), SeriesPid(1.58, float("inf"))).L]).unstable_poles
+    2
     """
     return count_unstable_many([terms])[0]
 
@@ -170,15 +203,19 @@ def count_unstable_many(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
     """count_unstable of each, worked on together. Raises InvalidParameter where it does for one of them."""
     loops = [[term for term in terms if term.gain] for terms in loops]
     functions = [characteristic(terms) for terms in loops]
-    found = [_at_infinity(f) for f in functions]
-    open_ = [i for i, verdict in enumerate(found) if verdict is None]
+    found: dict[int, Stability] = {}
+    for i, f in enumerate(functions):
+        if verdict := _at_infinity(f):
+            found[i] = verdict
+    open_ = [i for i in range(len(functions)) if i not in found]
     for i, turns in zip(open_, windings([functions[i] for i in open_]), strict=True):
         neutral = functions[i].neutral
         if turns.zeros is None:
+            assert turns.touches is not None  # that is why there is no number
             found[i] = _beside(loops[i], turns.touches, neutral)
         else:
             found[i] = Stability("unstable" if turns.zeros else "stable", turns.zeros, neutral)
-    return found
+    return [found[i] for i in range(len(functions))]
 
 
 def _at_infinity(f: Characteristic) -> Stability | None:

@@ -17,22 +17,24 @@ import numpy as np
 from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 
+Signal = float | np.ndarray
+
 
 class State(NamedTuple):
     """What is remembered from one sample to the next; all zero at rest."""
 
-    y: float = 0.0
-    r: float = 0.0
-    yF: float = 0.0
-    rF: float = 0.0
-    dy: float = 0.0
-    dr: float = 0.0
-    I: float = 0.0  # noqa: E741 the name of the field
-    v: float = 0.0
-    u: float = 0.0
+    y: Signal = 0.0
+    r: Signal = 0.0
+    yF: Signal = 0.0
+    rF: Signal = 0.0
+    dy: Signal = 0.0
+    dr: Signal = 0.0
+    I: Signal = 0.0  # noqa: E741 the name of the field
+    v: Signal = 0.0
+    u: Signal = 0.0
 
 
-def backward(pid: ParallelPid, h: float, pull: float, s: State, r, y) -> State:
+def backward(pid: ParallelPid, h: float, pull: float, s: State, r: Signal, y: Signal) -> State:
     """One sample by backward differences."""
     a = pid.tau_F / (pid.tau_F + h)
     yF, rF = a * s.yF + (1 - a) * y, a * s.rF + (1 - a) * r
@@ -42,7 +44,7 @@ def backward(pid: ParallelPid, h: float, pull: float, s: State, r, y) -> State:
     return State(y, r, yF, rF, dy, dr, I, v, v)
 
 
-def tustin(pid: ParallelPid, h: float, pull: float, s: State, r, y) -> State:
+def tustin(pid: ParallelPid, h: float, pull: float, s: State, r: Signal, y: Signal) -> State:
     """One sample by the bilinear transformation; without a filter there is no derivative action."""
     a, g = (2 * pid.tau_F - h) / (2 * pid.tau_F + h), h / (2 * pid.tau_F + h)
     yF, rF = a * s.yF + g * (y + s.y), a * s.rF + g * (r + s.r)

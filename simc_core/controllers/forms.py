@@ -14,11 +14,13 @@ tau_D' = tau_D/f. Back only if tau_I' >= 4 tau_D': f = (1 + sqrt(1 - 4 tau_D'/ta
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.algebra.factors import Factored, factors
@@ -28,13 +30,13 @@ FORMS = ("series", "ideal", "parallel")
 DOUBLE_ROOT = 1e-12  # tau_I' = 4 tau_D' up to rounding counts as equality
 
 
-def _weights(controller) -> None:
+def _weights(controller: "SeriesPid | IdealPid | ParallelPid") -> None:
     put = object.__setattr__
     put(controller, "b", checks.real("b", controller.b, 0.0, 2.0))
     put(controller, "c", checks.real("c", controller.c, 0.0, 2.0))
 
 
-def _standard_fields(controller) -> None:
+def _standard_fields(controller: "SeriesPid | IdealPid") -> None:
     """Bounds shared by the series and the ideal form."""
     put = object.__setattr__
     put(controller, "Kc", checks.gain("Kc", controller.Kc))
@@ -45,10 +47,10 @@ def _standard_fields(controller) -> None:
     _weights(controller)
 
 
+@dataclass(frozen=True, slots=True)
 class _Forms:
     """What all forms share, by way of the parallel one."""
 
-    __slots__ = ()
     SETTINGS: ClassVar[tuple[str, ...]]  # names of what is set in this form
     OPTIONAL: ClassVar[tuple[str, ...]] = ("tau_F", "b", "c")  # filter and weights, which come on top
 
@@ -65,7 +67,12 @@ class _Forms:
 
     def in_form(self, form: str) -> "Controller":
         """The same controller in one of FORMS; pure integral action stays what it is. Raises FormError."""
-        return {"series": self.to_series, "ideal": self.to_ideal, "parallel": self.to_parallel}[form]()
+        forms: dict[str, Callable[[], Controller]] = {
+            "series": self.to_series,
+            "ideal": self.to_ideal,
+            "parallel": self.to_parallel,
+        }
+        return forms[form]()
 
     def has_form(self, form: str) -> bool:
         """Whether `in_form` has an answer."""
@@ -75,15 +82,7 @@ class _Forms:
             return False
         return True
 
-    def with_filter(self, ratio: float) -> "Controller":
-        """The same controller with tau_F = ratio tau_D; pure integral action has no filter and stays what it is."""
-        return replace(self, tau_F=ratio * self.tau_D)
-
-    def with_weight(self, b: float) -> "Controller":
-        """The same controller with set-point weight b; pure integral action has none and stays what it is."""
-        return replace(self, b=b)
-
-    def rescaled(self, time: Fraction = Fraction(1), gain: float = 1.0) -> "Controller":
+    def rescaled(self, time: Fraction = Fraction(1), gain: float = 1.0) -> Self:
         """The same controller in other units.
 
         Parameters
@@ -99,20 +98,37 @@ class _Forms:
             In the same form, weights unchanged.
         """
         power = {"Kc": 0, "Kp": 0, "tau_I": 1, "tau_D": 1, "tau_F": 1, "Ki": -1, "K_I": -1, "Kd": 1}
-        values = {}
+        values: dict[str, float] = {}
         for name in (*self.SETTINGS, *(name for name in self.OPTIONAL if name in power)):
             value = getattr(self, name) * (1.0 if name.startswith("tau") else gain)
             ratio = time ** power[name]
             values[name] = value * ratio.numerator / ratio.denominator
         return replace(self, **values)
 
-    def response(self, s) -> np.ndarray:
+    def response(self, s: ArrayLike) -> np.ndarray:
         """C(s) of the feedback path, from -y to u; any shape of s."""
         return self.factored(s)
 
-    def setpoint_response(self, s) -> np.ndarray:
+    def setpoint_response(self, s: ArrayLike) -> np.ndarray:
         """Transfer function from r to u, (b Kp + Ki/s + c Kd s)/(tau_F s + 1); any shape of s."""
         return self.setpoint_factored(s)
+
+    @property
+    def factored(self) -> Factored:
+        """Feedback path as the engine sees it."""
+        raise NotImplementedError
+
+    def to_series(self) -> "SeriesPid":
+        """The same controller in series form."""
+        raise NotImplementedError
+
+    def to_ideal(self) -> "IdealPid":
+        """The same controller in ideal form."""
+        raise NotImplementedError
+
+    def to_parallel(self) -> "ParallelPid":
+        """The same controller in parallel form."""
+        raise NotImplementedError
 
     @property
     def setpoint_factored(self) -> Factored:
@@ -123,7 +139,32 @@ class _Forms:
 
 @dataclass(frozen=True, slots=True)
 class SeriesPid(_Forms):
-    """Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1)/(tau_F s + 1); tau_I = math.inf: no integral action."""
+    """Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1)/(tau_F s + 1); tau_I = math.inf: no integral action.
+
+    Parameters
+    ----------
+    Kc : float
+        Gain, in input units per output unit, != 0.
+    tau_I : float
+        Integral time > 0, in the user's time unit.
+    tau_D, tau_F : float
+        Derivative time and time constant of the filter, >= 0, in the user's time unit.
+    b, c : float
+        Weights of the set point in P and in D, 0 to 2.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds.
+
+    Examples
+    --------
+    The ideal form has f = 1 + tau_D/tau_I times Kc and tau_I [SG12 eq. 5.6]:
+
+    >>> from simc_core import SeriesPid
+    >>> SeriesPid(Kc=2, tau_I=8, tau_D=2).to_ideal().settings
+    {'Kc': 2.5, 'tau_I': 10.0, 'tau_D': 1.6}
+    """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("Kc", "tau_I", "tau_D")
     Kc: float
@@ -133,12 +174,21 @@ class SeriesPid(_Forms):
     b: float = 1.0
     c: float = 0.0
 
-    __post_init__ = _standard_fields
+    def __post_init__(self) -> None:
+        _standard_fields(self)
 
     @property
     def factored(self) -> Factored:
         """Feedback path as the engine sees it."""
         return _series(self.Kc, self.tau_I, self.tau_D, self.tau_F)
+
+    def with_filter(self, ratio: float) -> "SeriesPid":
+        """The same controller with tau_F = ratio tau_D."""
+        return replace(self, tau_F=ratio * self.tau_D)
+
+    def with_weight(self, b: float) -> "SeriesPid":
+        """The same controller with set-point weight b."""
+        return replace(self, b=b)
 
     def to_series(self) -> "SeriesPid":
         """Itself."""
@@ -156,7 +206,32 @@ class SeriesPid(_Forms):
 
 @dataclass(frozen=True, slots=True)
 class IdealPid(_Forms):
-    """Kc (1 + 1/(tau_I s) + tau_D s)/(tau_F s + 1); tau_I = math.inf: no integral action."""
+    """Kc (1 + 1/(tau_I s) + tau_D s)/(tau_F s + 1); tau_I = math.inf: no integral action.
+
+    Parameters
+    ----------
+    Kc : float
+        Gain, in input units per output unit, != 0.
+    tau_I : float
+        Integral time > 0, in the user's time unit.
+    tau_D, tau_F : float
+        Derivative time and time constant of the filter, >= 0, in the user's time unit.
+    b, c : float
+        Weights of the set point in P and in D, 0 to 2.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds.
+
+    Examples
+    --------
+    It has a series form where tau_I >= 4 tau_D [SG12 eq. 5.7]:
+
+    >>> from simc_core import IdealPid
+    >>> IdealPid(Kc=2.5, tau_I=10, tau_D=1.6).to_series().settings
+    {'Kc': 2.0, 'tau_I': 8.0, 'tau_D': 2.0}
+    """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("Kc", "tau_I", "tau_D")
     Kc: float
@@ -166,7 +241,8 @@ class IdealPid(_Forms):
     b: float = 1.0
     c: float = 0.0
 
-    __post_init__ = _standard_fields
+    def __post_init__(self) -> None:
+        _standard_fields(self)
 
     @property
     def factored(self) -> Factored:
@@ -179,6 +255,14 @@ class IdealPid(_Forms):
             factors((self.tau_I * self.tau_D, self.tau_I, 1.0)),
             factors((0.0, 1.0, 0.0), (0.0, self.tau_F, 1.0)),
         )
+
+    def with_filter(self, ratio: float) -> "IdealPid":
+        """The same controller with tau_F = ratio tau_D."""
+        return replace(self, tau_F=ratio * self.tau_D)
+
+    def with_weight(self, b: float) -> "IdealPid":
+        """The same controller with set-point weight b."""
+        return replace(self, b=b)
 
     def to_series(self) -> SeriesPid:
         """The same controller in series form [SG12 eq. 5.7]; FormError if tau_I < 4 tau_D."""
@@ -202,7 +286,28 @@ class IdealPid(_Forms):
 
 @dataclass(frozen=True, slots=True)
 class ParallelPid(_Forms):
-    """(Kp + Ki/s + Kd s)/(tau_F s + 1); not all three may be zero."""
+    """(Kp + Ki/s + Kd s)/(tau_F s + 1); not all three may be zero.
+
+    Parameters
+    ----------
+    Kp, Ki, Kd : float
+        Gains, in input units per output unit: Ki per time unit, Kd times the time unit.
+    tau_F : float
+        Time constant of the filter, >= 0, in the user's time unit.
+    b, c : float
+        Weights of the set point in P and in D, 0 to 2.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds, or all gains are zero.
+
+    Examples
+    --------
+    >>> from simc_core import ParallelPid
+    >>> ParallelPid(Kp=2, Ki=0.25, Kd=4).to_ideal().settings
+    {'Kc': 2.0, 'tau_I': 8.0, 'tau_D': 2.0}
+    """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("Kp", "Ki", "Kd")
     Kp: float
@@ -212,7 +317,7 @@ class ParallelPid(_Forms):
     b: float = 1.0
     c: float = 0.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__
         for name in ("Kp", "Ki", "Kd"):
             put(self, name, checks.real(name, getattr(self, name), -1e15, 1e15))
@@ -229,6 +334,10 @@ class ParallelPid(_Forms):
     def with_filter(self, ratio: float) -> "ParallelPid":
         """The same controller with tau_F = ratio Kd/Kp. Raises FormError where there is no such time."""
         return replace(self, tau_F=ratio * self.to_ideal().tau_D if self.Kd else 0.0)
+
+    def with_weight(self, b: float) -> "ParallelPid":
+        """The same controller with set-point weight b."""
+        return replace(self, b=b)
 
     def to_series(self) -> SeriesPid:
         """The same controller in series form; FormError where there is none."""
@@ -253,13 +362,27 @@ class ParallelPid(_Forms):
 
 @dataclass(frozen=True, slots=True)
 class IController(_Forms):
-    """K_I/s, the SIMC controller of pure dead time [SK03 Table 1]."""
+    """K_I/s, the SIMC controller of pure dead time [SK03 Table 1].
+
+    Parameters
+    ----------
+    K_I : float
+        Gain, in input units per output unit and time, != 0.
+
+    Examples
+    --------
+    K_I = 1/(k (tau_c + theta)):
+
+    >>> from simc_core import FirstOrderDelay, IController, simc
+    >>> simc(FirstOrderDelay(k=1, theta=1, tau1=0)) == IController(K_I=1 / (1 * (1 + 1)))
+    True
+    """
 
     SETTINGS: ClassVar[tuple[str, ...]] = ("K_I",)
     OPTIONAL: ClassVar[tuple[str, ...]] = ()
     K_I: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "K_I", checks.gain("K_I", self.K_I))
 
     @property
@@ -272,11 +395,11 @@ class IController(_Forms):
         return self
 
     def with_filter(self, ratio: float) -> "IController":
-        """Itself."""
+        """Itself: pure integral action has no filter."""
         return self
 
     def with_weight(self, b: float) -> "IController":
-        """Itself."""
+        """Itself: pure integral action has no set-point weight."""
         return self
 
     def to_series(self) -> SeriesPid:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 Figure = dict[str, Any]
 Trace = dict[str, Any]
@@ -48,6 +49,10 @@ TIME = "t  [time unit]"
 FREQUENCY = "ω  [rad/time unit]"
 
 
+TICKS = 12  # px, of the numbers on all axes
+PLOTLY_POWER = 1.25  # plotly draws powers of ten so much larger than it is told
+
+
 def css_variables(selector: str) -> str:
     """A CSS rule that gives the colours to styles and scripts of the pages, as --simc-y, --simc-y-pin-1, ...
 
@@ -73,7 +78,9 @@ def config(name: str) -> dict[str, Any]:
     }
 
 
-def line(x, y, name: str, color: str, dash: str = "solid", width: float = 2.0, **more) -> Trace:
+def line(
+    x: ArrayLike, y: ArrayLike, name: str, color: str, dash: str = "solid", width: float = 2.0, **more: object
+) -> Trace:
     """A curve through every one of its points: simplification would put kinks in it."""
     return {
         "type": "scatter",
@@ -85,7 +92,7 @@ def line(x, y, name: str, color: str, dash: str = "solid", width: float = 2.0, *
     } | more
 
 
-def marker(x: float, y: float, label: str, color: str, name: str, position: str = "top right", **more) -> Trace:
+def marker(x: float, y: float, label: str, color: str, name: str, position: str = "top right", **more: object) -> Trace:
     """One point with its label beside it."""
     return {
         "type": "scatter",
@@ -108,14 +115,14 @@ def shade(color: str, position: int) -> tuple[str, str, float]:
     return PIN_SHADES[color][position - 1], PIN_DASHES[position - 1], 1.6
 
 
-def axis(title: str, **more) -> dict[str, Any]:
+def axis(title: str, **more: object) -> dict[str, Any]:
     """A linear axis with name and unit."""
     return {
         "title": {"text": title, "standoff": 14, "font": {"size": 12}},
         "gridcolor": GRID,
         "zerolinecolor": GRID,
         "linecolor": NEUTRAL,
-        "tickfont": {"size": 11},
+        "tickfont": {"size": TICKS},
         "ticks": "outside",
         "ticklen": 3,
         "automargin": True,
@@ -123,12 +130,12 @@ def axis(title: str, **more) -> dict[str, Any]:
     } | more
 
 
-def log_axis(title: str, **more) -> dict[str, Any]:
+def log_axis(title: str, **more: object) -> dict[str, Any]:
     """A logarithmic axis, decades as powers of ten."""
-    return axis(title, type="log", exponentformat="power", dtick=1) | more
+    return axis(title, type="log", exponentformat="power", dtick=1, tickfont={"size": TICKS / PLOTLY_POWER}) | more
 
 
-def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None = None, **layout) -> Figure:
+def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None = None, **layout: object) -> Figure:
     """The figure dict. height in px, None to fill what the page gives."""
     return {
         "data": list(traces),

@@ -15,7 +15,7 @@ from simc_core.simulation import NestedResponse, TimeResponse
 from simc_core.studies.with_actuator import AsBuilt
 
 NestedCurves = Sequence[tuple[str, NestedResponse]]
-Curves = Sequence[tuple[str, TimeResponse]] | NestedCurves
+Curves = Sequence[tuple[str, TimeResponse | NestedResponse]]
 FAR = 10.0  # a response that leaves this many steps is growing: the view stays where the eye can read
 VIEW = (-4.0, 6.0)
 NEAR = 0.5  # of the range of u: a limit farther away than this would only flatten the curves

@@ -54,7 +54,7 @@ class GainSchedule:
     rule: Callable[[Model], Controller] = simc
     between: str = "model"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         values = checks.items("values", self.values, MOST_ROWS)
         models = checks.items("models", self.models, MOST_ROWS)
         object.__setattr__(self, "values", tuple(checks.real(f"values[{i}]", x) for i, x in enumerate(values)))

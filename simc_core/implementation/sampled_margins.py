@@ -83,8 +83,11 @@ def sampled_margins(loop: Loop, h: float, law: str = "backward", delay_scans: in
     crossed = _crossings(sampled)
     last = float(sampled.L(np.array([1j * math.pi]))[0].real)
     found = margins_from(_Ends(FactoredResponse(loop.L).at_zero, Asymptote(last, 0)), crossed)
-    highest = {name: math.pi / h for name in ("omega_180", "omega_Ms", "omega_Mt") if getattr(found, name) == math.inf}
-    return replace(found, delay_margin=_delay_margin(sampled, crossed), **highest)
+    omega_180, omega_Ms, omega_Mt = (
+        math.pi / h if omega == math.inf else omega for omega in (found.omega_180, found.omega_Ms, found.omega_Mt)
+    )
+    delay_margin = _delay_margin(sampled, crossed)
+    return replace(found, delay_margin=delay_margin, omega_180=omega_180, omega_Ms=omega_Ms, omega_Mt=omega_Mt)
 
 
 def longest_sampling_period(loop: Loop, law: str = "backward", delay_scans: int = 0, more: float = 0.05) -> float:
@@ -111,6 +114,15 @@ def longest_sampling_period(loop: Loop, law: str = "backward", delay_scans: int 
     ------
     NotStable
         The continuous loop is not stable.
+
+    Examples
+    --------
+    At that period Ms is 5 % higher:
+
+    >>> from simc_core import FirstOrderDelay, Loop, Plant, longest_sampling_period, margins, sampled_margins, simc
+    >>> loop = Loop(Plant(1, 1, (8,)), simc(FirstOrderDelay(1, 1, 8)))
+    >>> round(sampled_margins(loop, longest_sampling_period(loop)).Ms / margins(loop).Ms, 4)
+    1.05
     """
     more = checks.real("more", more, 1e-6, 10.0)
     continuous = margins(loop)
@@ -144,13 +156,13 @@ def _crossings(sampled: SampledLoop) -> Crossings:
     angles, h = sampled.angles, sampled.h
     L = sampled.L(1j * angles)
 
-    def size(angle):
+    def size(angle: np.ndarray) -> np.ndarray:
         return np.log(np.abs(sampled.L(1j * angle)))
 
-    def phase(angle):
+    def phase(angle: np.ndarray) -> np.ndarray:
         return np.angle(-sampled.L(1j * angle))
 
-    def T(angle):
+    def T(angle: np.ndarray) -> np.ndarray:
         return np.abs(1 - 1 / (1 + sampled.L(1j * angle)))
 
     below, turn = np.abs(L) < 1, np.angle(-L)

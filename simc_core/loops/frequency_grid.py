@@ -26,7 +26,7 @@ def omega_grid(functions: Sequence[Factored], marks: Iterable[float] = ()) -> np
     low, high = (corners.min() / BEYOND, corners.max() * BEYOND) if corners.size else (0.01, 100.0)
     if theta:
         high = min(high, max([TURNS / theta, *(3 * mark for mark in given)]))
-    parts = [np.geomspace(low, high, LOGARITHMIC), given]
+    parts = [np.geomspace(low, high, LOGARITHMIC), np.array(given)]
     if theta:
         parts.append(np.arange(1.0, TURNS, WINDING) / theta)
     parts += [abs(p.imag) + abs(p.real) * AROUND_RESONANCE for p in roots if abs(p.imag) > abs(p.real)]

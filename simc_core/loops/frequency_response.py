@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
@@ -14,7 +15,18 @@ MOST_FREQUENCIES = 1_000_000  # of one call, about 0.1 s
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrequencyResponse:
-    """Arrays of shape (n,): omega in rad per time unit, the others complex."""
+    """Transfer functions of a loop at given frequencies.
+
+    Attributes
+    ----------
+    omega : np.ndarray, shape (n,)
+        Frequencies, in rad per time unit.
+    L, S, T : np.ndarray, shape (n,), complex
+        G C, 1/(1 + L) and L/(1 + L).
+    KS, GS : np.ndarray, shape (n,), complex
+        C S, from noise to input, in input units per output unit; G S, from load to output, in output units per input
+        unit.
+    """
 
     omega: np.ndarray
     L: np.ndarray
@@ -24,7 +36,7 @@ class FrequencyResponse:
     GS: np.ndarray
 
 
-def frequency_response(loop: Loop | CascadeLoop | NestedLoops, omega) -> FrequencyResponse:
+def frequency_response(loop: Loop | CascadeLoop | NestedLoops, omega: ArrayLike) -> FrequencyResponse:
     """L, S, T, KS and GS of the loop, with its dead time exact.
 
     Parameters
@@ -55,14 +67,14 @@ def frequency_response(loop: Loop | CascadeLoop | NestedLoops, omega) -> Frequen
     >>> float(abs(frequency_response(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)), [0.5]).L[0]).round(12))
     1.0
     """
-    omega = at_frequencies(omega)
+    at = at_frequencies(omega)
     match loop:
         case Loop():
-            return _of_single(loop, omega)
+            return _of_single(loop, at)
         case NestedLoops():
-            return _of_outermost(loop, omega)
+            return _of_outermost(loop, at)
         case CascadeLoop():
-            return _of_outermost(loop.nested, omega)
+            return _of_outermost(loop.nested, at)
         case _:
             raise not_a_loop(loop)
 
@@ -79,7 +91,7 @@ def _of_single(loop: Loop, omega: np.ndarray) -> FrequencyResponse:
 
 def _of_outermost(loop: NestedLoops, omega: np.ndarray) -> FrequencyResponse:
     s = 1j * omega
-    L, C, G = open_loop(loop, s), loop.controllers[-1].factored(s), loop.blocks[-1].factored(s)
+    L, C, G = open_loop(loop, s), loop.outermost.factored(s), loop.blocks[-1].factored(s)
     S = 1 / (1 + L)
     return FrequencyResponse(omega, L, S, L * S, C * S, G * S)
 
@@ -98,13 +110,13 @@ def open_loop(loops: NestedLoops, s: np.ndarray) -> np.ndarray:
     return loops.own(s) * closed_inside(loops, s)
 
 
-def at_frequencies(omega) -> np.ndarray:
+def at_frequencies(omega: ArrayLike) -> np.ndarray:
     """omega as an array of shape (n,).
 
     Raises InvalidParameter where these are not positive finite numbers, or more than MOST_FREQUENCIES.
     """
-    omega = checks.array("omega", omega, MOST_FREQUENCIES)
-    wrong = omega[~(np.isfinite(omega) & (omega > 0))]
+    found = checks.array("omega", omega, MOST_FREQUENCIES)
+    wrong = found[~(np.isfinite(found) & (found > 0))]
     if wrong.size:
         raise InvalidParameter(f"omega must be positive and finite, got {wrong[0]:g}")
-    return omega
+    return found

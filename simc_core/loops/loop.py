@@ -23,7 +23,23 @@ from simc_core.plants.plant import Plant
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """A plant under feedback, see the module docstring."""
+    """A plant under feedback: the block diagram in the module docstring fixes all signs.
+
+    Parameters
+    ----------
+    plant : Plant
+        G, dead time exact.
+    controller : SeriesPid, IdealPid, ParallelPid or IController
+        C in the feedback path, with its set-point weights.
+
+    Examples
+    --------
+    L = G C, here e^{-s}/(2 s):
+
+    >>> from simc_core import Loop, Plant, SeriesPid
+    >>> complex(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)).L(0.5j).round(6))
+    (-0.479426-0.877583j)
+    """
 
     plant: Plant
     controller: Controller

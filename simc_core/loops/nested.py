@@ -28,15 +28,32 @@ ONE = Factored(1.0, factors(), factors())
 
 @dataclass(frozen=True, slots=True)
 class NestedLoops:
-    """blocks and controllers from the inside out; see the module docstring. None: y_i is not fed back.
+    """Loops within loops, blocks and controllers from the inside out; see the module docstring.
 
-    Raises InvalidParameter: lists of different length, no block or more than MOST_LOOPS, no outermost controller.
+    Parameters
+    ----------
+    blocks : tuple of Plant
+        G_1 to G_N, N from 1 to 6.
+    controllers : tuple of controllers or None
+        C_1 to C_N. None: y_i is not fed back. The outermost one must be given.
+
+    Raises
+    ------
+    InvalidParameter
+        Lists of different length, no block or more than MOST_LOOPS, no outermost controller.
+
+    Examples
+    --------
+    >>> from simc_core import NestedLoops, Plant, SeriesPid, stability
+    >>> loops = NestedLoops((Plant(1, 0.1, (1,)), Plant(1, 1, (8,))), (SeriesPid(5, 1), SeriesPid(2, 8)))
+    >>> stability(loops).sound
+    True
     """
 
     blocks: tuple[Plant, ...]
     controllers: tuple[Controller | None, ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__
         put(self, "blocks", checks.items("blocks", self.blocks, MOST_LOOPS))
         put(self, "controllers", checks.items("controllers", self.controllers, MOST_LOOPS))
@@ -47,6 +64,13 @@ class NestedLoops:
             )
         if self.controllers[-1] is None:
             raise InvalidParameter("the outermost controller must be given, got None")
+
+    @property
+    def outermost(self) -> Controller:
+        """The controller of the outermost loop."""
+        controller = self.controllers[-1]
+        assert controller is not None  # refused at construction
+        return controller
 
     @property
     def inside(self) -> "NestedLoops | None":
@@ -60,7 +84,7 @@ class NestedLoops:
     def own(self) -> Factored:
         """What the outermost loop has in series with the closed loop inside it: controller and blocks between."""
         count = len(self.inside.blocks) if self.inside else 0
-        product = self.controllers[-1].factored
+        product = self.outermost.factored
         for block in self.blocks[count:]:
             product = product * block.factored
         return product
@@ -81,8 +105,24 @@ class NestedLoops:
 class CascadeLoop:
     """Two nested loops: primary = Ga under `outer`, secondary = Gb under `inner`.
 
-    d2 enters at the input of Gb, d1 at the input of Ga. inner=None: no inner loop, `outer` drives Gb directly, which
-    is the single-loop alternative with the same disturbances.
+    d2 enters at the input of Gb, d1 at the input of Ga.
+
+    Parameters
+    ----------
+    primary, secondary : Plant
+        Ga and Gb; Gb stands nearer to the actuator.
+    outer : controller
+        Sees the output of Ga; what it puts out is the set point of the inner loop.
+    inner : controller or None
+        Sees the output of Gb. None: no inner loop, `outer` drives Gb directly, which is the single-loop alternative
+        with the same disturbances.
+
+    Examples
+    --------
+    >>> from simc_core import CascadeLoop, Plant, SeriesPid, margins
+    >>> loop = CascadeLoop(Plant(1, 1, (8,)), Plant(1, 0.1, (1,)), outer=SeriesPid(2, 8), inner=SeriesPid(5, 1))
+    >>> margins(loop.outer_loop).stable
+    True
     """
 
     primary: Plant
@@ -108,6 +148,6 @@ class CascadeLoop:
         return self.nested
 
 
-def not_a_loop(given) -> WrongType:
+def not_a_loop(given: object) -> WrongType:
     """The refusal of whatever works on all kinds of loops."""
     return WrongType(f"loop must be a Loop, CascadeLoop or NestedLoops, got {type(given).__name__}")

@@ -29,8 +29,14 @@ HEADING_ROWS = 10  # among which the headings are looked for
 class LoopList:
     """What was read.
 
-    rows: for tune_many.   columns: each heading of the file and the name that was understood, "" for none.
-    notes: what was assumed, in words.
+    Attributes
+    ----------
+    rows : list of dict
+        For `tune_many`.
+    columns : dict of str to str
+        Each heading of the file and the name that was understood, "" for none.
+    notes : tuple of str
+        What was assumed, in words.
     """
 
     rows: list[dict[str, str | int]]

@@ -21,7 +21,19 @@ LONGEST_REFUSAL = 600  # characters
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """A controller in the loop. performance: None where there is none; `why_not` says why."""
+    """A controller in the loop.
+
+    Attributes
+    ----------
+    controller : Controller
+        Its settings.
+    margins : Margins
+        Of the loop; all nan where it is not stable.
+    performance : Performance or None
+        Of unit steps; None where there is none.
+    why_not : str
+        Why there is no performance, "" where there is one.
+    """
 
     controller: Controller
     margins: Margins
@@ -46,7 +58,7 @@ class Robust:
 class Result:
     """One row of a list, tuned; or the reason why not.
 
-    Parameters
+    Attributes
     ----------
     row : mapping
         As it was given.

@@ -18,7 +18,7 @@ from simc_core.reduction.half_rule import reduced_model
 from simc_core.rules.simc import simc
 from simc_core.rules.speed import tau_c_in_use
 from simc_core.studies.advice import Advice
-from simc_core.studies.comparison import at_equal_robustness
+from simc_core.studies.equal_robustness import at_equal_robustness
 from simc_core.studies.tune import tune
 
 MOST_ROWS = 1000  # of one chunk
@@ -83,6 +83,15 @@ def tune_chunk(rows: Sequence[Mapping[str, Any]]) -> list[Result]:
     ------
     InvalidParameter
         More than MOST_ROWS rows.
+
+    Examples
+    --------
+    SIMC has Kc = (1/k) tau1/(tau_c + theta) with tau_c = theta [SK03]:
+
+    >>> from simc_core import tune_chunk
+    >>> found = tune_chunk([{"k": k, "theta": 1, "tau1": 8} for k in (1, 2)])
+    >>> [each.controller.Kc for each in found]
+    [4.0, 2.0]
     """
     if len(rows) > MOST_ROWS:
         raise InvalidParameter(f"a chunk may have at most {MOST_ROWS} rows, found {len(rows)}: use tune_many")

@@ -21,7 +21,15 @@ OFFSET = 1e-7
 
 @dataclass(frozen=True, slots=True)
 class NestedPerformance:
-    """setpoint: unit step of r.   disturbances: unit steps of d_1 .. d_N, from the inside out."""
+    """What is measured on the steps of nested loops.
+
+    Attributes
+    ----------
+    setpoint : StepMetrics
+        Unit step of r.
+    disturbances : tuple of StepMetrics, N of them
+        Unit steps of d_1 to d_N, from the inside out.
+    """
 
     setpoint: StepMetrics
     disturbances: tuple[StepMetrics, ...]

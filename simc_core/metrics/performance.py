@@ -13,6 +13,7 @@ more than limits.MOST_TO_REST elements to come to rest is too close to its stabi
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import overload
 
 import numpy as np
 
@@ -37,12 +38,22 @@ TINY = 1e-300
 
 @dataclass(frozen=True, slots=True)
 class Performance:
-    """Unit step of the set point, and of the disturbance at the plant input."""
+    """What is measured on the steps of a single loop.
+
+    Attributes
+    ----------
+    setpoint, disturbance : StepMetrics
+        Unit step of the set point, and of the disturbance at the plant input.
+    """
 
     setpoint: StepMetrics
     disturbance: StepMetrics
 
 
+@overload
+def performance(loop: Loop) -> Performance: ...
+@overload
+def performance(loop: CascadeLoop | NestedLoops) -> NestedPerformance: ...
 def performance(loop: Loop | CascadeLoop | NestedLoops) -> Performance | NestedPerformance:
     """IAE, overshoot, settling time and the like, of unit steps of set point and load; the dead time is exact.
 

@@ -8,12 +8,13 @@ between two samples is lost. From the secant of its bracket x goes by Halley's s
 or halves the bracket, until a step is short and nearly Newton's, N; the next one then leaves rounding.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import chebyshev_basis
 
 INTERVALS = 64
@@ -59,14 +60,22 @@ class LevelCrossings:
     def of_first_level(self) -> "LevelCrossings":
         """Those through the first level."""
         k = self.level.searchsorted(1)
-        along = (each[:k] for each in (self.level, self.row, self.interval, self.x, self.sign))
-        return LevelCrossings(*along, self.basis[:, :k], self.begin[:1], self.ends)
+        return LevelCrossings(
+            self.level[:k],
+            self.row[:k],
+            self.interval[:k],
+            self.x[:k],
+            self.sign[:k],
+            self.basis[:, :k],
+            self.begin[:1],
+            self.ends,
+        )
 
     def of(self, series: np.ndarray) -> np.ndarray:
         """Values of other series (R, P) there."""
         return np.add.reduce(series[self.row].T * self.basis[:P], axis=0)
 
-    def integral(self, left, right: np.ndarray, at: np.ndarray) -> np.ndarray:
+    def integral(self, left: float | np.ndarray, right: np.ndarray, at: np.ndarray) -> np.ndarray:
         """int s g' on each row, (R,), s the sign of the series less the first level, all of whose zeros these are.
 
         g: left and right (R,), at the places (k,).
@@ -85,7 +94,7 @@ def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None
     where, interval = np.divmod(np.flatnonzero(below[:, :, 1:] != below[:, :, :-1]), INTERVALS)
     level, row = np.divmod(where, len(series))
     first, last = values[row, interval], values[row, interval + 1]
-    found = level, row, interval, SAMPLES[interval], SAMPLES[interval + 1], first, last
+    found: Sequence[np.ndarray] = (level, row, interval, SAMPLES[interval], SAMPLES[interval + 1], first, last)
     if turns is not None:
         found = _with_lobes(found, turns, values, below, levels)
     level, row, interval, low, high, first, last = found
@@ -96,7 +105,9 @@ def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None
     return LevelCrossings(level, row, interval, x, sign, basis, below[:, :, 0], ends)
 
 
-def _with_lobes(found, turns: Turns, values: np.ndarray, below: np.ndarray, levels: np.ndarray):
+def _with_lobes(
+    found: Sequence[np.ndarray], turns: Turns, values: np.ndarray, below: np.ndarray, levels: np.ndarray
+) -> Sequence[np.ndarray]:
     """Brackets on both sides of a turn that is not on the side of a level where the samples around it are."""
     before = below[:, turns.row, turns.interval]
     lobe = (before == below[:, turns.row, turns.interval + 1]) & (before != (turns.value < levels[:, turns.row]))
@@ -111,7 +122,9 @@ def _with_lobes(found, turns: Turns, values: np.ndarray, below: np.ndarray, leve
     return [each[order] for each in joined]
 
 
-def _polished(own: np.ndarray, rounding, low, high, first, last) -> tuple[np.ndarray, np.ndarray]:
+def _polished(
+    own: np.ndarray, rounding: np.ndarray, low: np.ndarray, high: np.ndarray, first: np.ndarray, last: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Zeros of columns (P, k) between low and high, where they are first and last: x, and the basis next to it."""
     parts, width, below = (TAYLOR @ own).reshape(3, P, -1), high - low, first < 0
     short = SHORT * width

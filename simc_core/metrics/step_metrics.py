@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.metrics.piece_zeros import SLOPE, LevelCrossings, Turns, crossings
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import ENDS
 
 NOISE = 1e-11  # of the largest value; what changes less in a piece has come to rest, its signs are rounding
@@ -78,12 +78,24 @@ class Steps:
 
 @dataclass(frozen=True, slots=True)
 class StepMetrics:
-    """For a unit step. Times in the user's unit, from the step on.
+    """What is measured on the response to a unit step.
 
-    overshoot: of a set-point step, beyond 1 as a fraction; of a load step, beyond 0 on the other side as a fraction of
-    the peak.   peak, peak_time: largest y of a set-point step, largest abs(y) of a load step (with its sign);
-    a set-point step without overshoot has no peak_time: nan.
-    rise_time: 10 % to 90 %, nan for a load step.   settling_time: within 2 % of the step, of the peak for a load step.
+    Attributes
+    ----------
+    IAE, ISE, ITAE : float
+        Integrals of abs(e), e^2 and t abs(e) over all times.
+    TV : float
+        Total variation of u, jumps included, in input units.
+    overshoot : float
+        Of a set-point step, beyond 1 as a fraction; of a load step, beyond 0 on the other side as a fraction of the
+        peak.
+    peak, peak_time : float
+        Largest y of a set-point step, largest abs(y) of a load step (with its sign), and when. A set-point step without
+        overshoot has no peak_time: nan.
+    rise_time : float
+        From 10 % to 90 %, nan for a load step. Times in the user's unit, from the step on.
+    settling_time : float
+        Within 2 % of the step, of the peak for a load step.
     """
 
     IAE: float
@@ -143,8 +155,8 @@ def measures(steps: Steps, with_times: bool = True) -> Measures:
     rise, settling = _times(steps, found, levels, right[:m]) if with_times else np.full((2, len(peak)), np.nan)
     integrals = np.abs([IAE, ISE, ITAE, TV])  # what is not alive has no sign of its own
     integrals[3] += np.abs(left[m:] - steps.before(right[m:]))
-    integrals = np.add.reduceat(integrals, steps.first, axis=1)
-    return Measures(*integrals, overshoot, peak, peak_time, rise, settling)
+    IAE, ISE, ITAE, TV = np.add.reduceat(integrals, steps.first, axis=1)
+    return Measures(IAE, ISE, ITAE, TV, overshoot, peak, peak_time, rise, settling)
 
 
 def _extremes(

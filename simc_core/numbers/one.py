@@ -52,6 +52,12 @@ def read_number(name: str, text: str) -> float:
     InvalidParameter
         Where the text is no number, can be read in two ways, or is too large or too small for a double; names the
         field, what was found and the way out.
+
+    Examples
+    --------
+    >>> from simc_core import read_number
+    >>> read_number("k", "1,5"), read_number("theta", "2·10^-3")
+    (1.5, 0.002)
     """
     return to_float(name, read_exact(name, text))
 

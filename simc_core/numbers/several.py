@@ -44,6 +44,12 @@ def read_numbers(name: str, text: str) -> list[float]:
     ------
     InvalidParameter
         As `read_number`, with the place of the fault in the list.
+
+    Examples
+    --------
+    >>> from simc_core import read_numbers
+    >>> read_numbers("denominator", "[180 5 1]"), read_numbers("denominator", "1,5; 2")
+    ([180.0, 5.0, 1.0], [1.5, 2.0])
     """
     return [to_float(name, value) for value in read_exact_numbers(name, text)]
 

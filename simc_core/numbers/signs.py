@@ -4,7 +4,7 @@ import unicodedata
 
 BLANKS = "\u00a0\u2007\u2008\u2009\u202f"  # typographers' blanks, some of them separators of thousands
 INVISIBLE = "\u200b\u200c\u200d\u200e\u200f\u2060\ufeff"  # carried along by a copy from a page
-ALIKE = {
+ALIKE: dict[int, int | str] = {
     **{0xFF01 + i: 0x21 + i for i in range(94)},
     **dict.fromkeys(map(ord, "−‐‑‒–—﹣"), "-"),
     **dict.fromkeys(map(ord, "⁄∕÷"), "/"),

@@ -9,6 +9,7 @@ J          (IAE setpoint/reference + IAE load/reference)/2 [SG12], the reference
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -39,7 +40,7 @@ class Criterion:
     name: str
     references: References | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.name not in CRITERIA:
             raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, got {self.name!r}")
 
@@ -57,11 +58,15 @@ class Criterion:
             case "setpoint":
                 return setpoint
             case _:
+                assert self.references is not None  # criterion_of gives them to J
                 return J(self.references, setpoint, load)
 
 
-def J(references: References, setpoint, load):
-    """[SG12]."""
+Error = TypeVar("Error", float, np.ndarray)
+
+
+def J(references: References, setpoint: Error, load: Error) -> Error:
+    """[SG12], of two integrals or of arrays of them."""
     return (setpoint / references.setpoint + load / references.load) / 2
 
 

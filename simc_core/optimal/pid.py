@@ -103,7 +103,10 @@ class _Search:
     def found(self) -> Found | None:
         """The best point of all."""
         value, x = self.best
-        return Found(*map(float, self.settings(x)), math.exp(value)) if math.isfinite(value) else None
+        if not math.isfinite(value):
+            return None
+        Kc, tau_I, tau_D = map(float, self.settings(x))
+        return Found(Kc, tau_I, tau_D, math.exp(value))
 
     def _pull_back(self) -> None:
         """The last point may be better than the best, but for a gain that is a little too large."""
@@ -211,9 +214,9 @@ def _start(
 ) -> np.ndarray | None:
     """Logarithms of Kc, tau_I, tau_D, of tau_I = 1 in place of inf."""
     if warm is not None:
-        high = float(problem.edges(warm.tau_I, warm.tau_D)[1][0])
-        if math.isfinite(high):
-            return np.log([min(BEGIN * high, warm.Kc), warm.tau_I if search.integral else 1.0, warm.tau_D])
+        edge = float(problem.edges(warm.tau_I, warm.tau_D)[1][0])
+        if math.isfinite(edge):
+            return np.log([min(BEGIN * edge, warm.Kc), warm.tau_I if search.integral else 1.0, warm.tau_D])
     pairs = [(i * problem.scale, d * problem.scale) for i in TIMES_I for d in TIMES_D]
     if problem.criterion.name != "load":
         pairs += [(i * problem.times, d * problem.scale) for i in (0.5, 1.0) for d in TIMES_D]

@@ -1,11 +1,12 @@
 """One optimisation: which plant, which controllers, what is to be small, and how robust the loop must be."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core.controllers.forms import ParallelPid
 from simc_core.optimal.criterion import Criterion
@@ -41,25 +42,25 @@ class Problem:
         """Robust gains round the plant."""
         return robust_gains(self.plant, SLOWEST * max(self.times, self.scale))
 
-    def shapes(self, tau_I, tau_D=0.0) -> Shapes:
+    def shapes(self, tau_I: ArrayLike, tau_D: ArrayLike = 0.0) -> Shapes:
         """Ideal controllers of gain 1, or -1."""
         return Shapes.ideal(self.sign, tau_I, tau_D, self.tau_F)
 
-    def edges(self, tau_I, tau_D=0.0) -> tuple[np.ndarray, np.ndarray]:
+    def edges(self, tau_I: ArrayLike, tau_D: ArrayLike = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """Smallest and largest |Kc| of each shape; nan where there is none."""
         return self.gains.highest(self.shapes(tau_I, tau_D), self.M)
 
-    def values(self, Kc, tau_I, tau_D=0.0) -> np.ndarray:
+    def values(self, Kc: ArrayLike, tau_I: ArrayLike, tau_D: ArrayLike = 0.0) -> np.ndarray:
         """The criterion of each controller; math.inf where Kc is nan."""
-        Kc, tau_I, tau_D = np.broadcast_arrays(np.atleast_1d(Kc), tau_I, tau_D)
-        found = np.full(len(Kc), math.inf)
-        good = np.flatnonzero(np.isfinite(Kc))
+        gains, *times = np.broadcast_arrays(np.atleast_1d(Kc), tau_I, tau_D)
+        found = np.full(len(gains), math.inf)
+        good = np.flatnonzero(np.isfinite(gains))
         if good.size:
-            rows = zip(Kc[good].tolist(), tau_I[good].tolist(), tau_D[good].tolist(), strict=True)
+            rows = zip(*(each[good].tolist() for each in (gains, *times)), strict=True)
             found[good] = self.criterion(self.forms(rows))
         return found
 
-    def forms(self, rows) -> Sequence[ParallelPid]:
+    def forms(self, rows: Iterable[tuple[float, float, float]]) -> Sequence[ParallelPid]:
         """Controllers of (Kc, tau_I, tau_D)."""
         c = self.criterion.weighs_derivative
         return [

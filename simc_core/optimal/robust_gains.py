@@ -23,15 +23,15 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
-from simc_core.certificate.verdict import count_unstable, stability
-from simc_core.controllers.forms import Controller, ParallelPid
+from simc_core.certificate.verdict import count_unstable
+from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop, factored_plant
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
-from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.search_grid import LIGHT, cluster
 
 PER_DECADE = 60
@@ -40,7 +40,6 @@ MARGIN = 1e3  # decades below and above all corners
 ENDS = 1e6  # one more node that far out stands for the limit
 ZOOM, ZOOMS, FINE_ZOOMS = 9, 3, 5  # nodes between the neighbours of an extremum, and how often
 NEAR = 1.03  # extrema of a run within this of its largest are looked at
-EXACT, RETRIES = 1e-8, 6  # of the peak at an edge
 LARGEST_M = 100.0
 
 
@@ -60,10 +59,10 @@ class Shapes:
     tau_F: float = 0.0
 
     @classmethod
-    def ideal(cls, sign: float, tau_I, tau_D=0.0, tau_F: float = 0.0) -> "Shapes":
+    def ideal(cls, sign: float, tau_I: ArrayLike, tau_D: ArrayLike = 0.0, tau_F: float = 0.0) -> "Shapes":
         """Kc = sign, and arrays of tau_I and tau_D."""
-        tau_I, tau_D = np.broadcast_arrays(np.atleast_1d(tau_I), tau_D)
-        return cls(sign * np.stack([np.ones(len(tau_I)), 1 / tau_I, tau_D], axis=1), tau_F)
+        Ti, Td = np.broadcast_arrays(np.atleast_1d(tau_I), tau_D)
+        return cls(sign * np.stack([np.ones(len(Ti)), 1 / Ti, Td], axis=1), tau_F)
 
     def over(self, s: np.ndarray) -> np.ndarray:
         """Each of them at each s, (n, len(s))."""
@@ -124,7 +123,7 @@ class RobustGains:
                 break
         return gaps
 
-    def _runs(self, shapes: Shapes, c: float, zooms: int):
+    def _runs(self, shapes: Shapes, c: float, zooms: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Owner, smallest low, largest high and turn (Im g from - to +: 1, from + to -: -1) of each run."""
         g = self.on_grid * shapes.over(1j * self.omega)
         N = len(self.omega)
@@ -163,7 +162,9 @@ class RobustGains:
         after = np.where(np.diff(run, append=run[-1] + 1) > 0, math.inf, padded[2:])
         return np.flatnonzero((values <= before) & (values <= after) & (values <= smallest[run] + math.log(NEAR)))
 
-    def _refined(self, shapes: Shapes, c: float, owner: np.ndarray, column: np.ndarray, upper: np.ndarray, zooms: int):
+    def _refined(
+        self, shapes: Shapes, c: float, owner: np.ndarray, column: np.ndarray, upper: np.ndarray, zooms: int
+    ) -> np.ndarray:
         """log low, or -log high where `upper`, at the minimum next to a node of the grid."""
         omega, steps = self.omega, np.linspace(0, 1, ZOOM)
         left, right = omega[np.maximum(column - 1, 0)], omega[np.minimum(column + 1, len(omega) - 1)]
@@ -214,85 +215,9 @@ class RobustGains:
     def _counted(self, row: list[float], tau_F: float) -> int:
         """Undamped poles on the axis move as the phase there has it: the certificate knows."""
         size = np.abs(self.on_grid * Shapes(np.array([row]), tau_F).over(1j * self.omega)[0])
-        form = ParallelPid(*row, tau_F).rescaled(gain=1e-6 / float(np.median(size)))
+        Kp, Ki, Kd = row
+        form = ParallelPid(Kp, Ki, Kd, tau_F).rescaled(gain=1e-6 / float(np.median(size)))
         return int(count_unstable([Loop(self.plant, form).L]).unstable_poles)
-
-
-def gain_intervals(plant: Plant, shape: Controller, Ms: float) -> tuple[tuple[float, float], ...]:
-    """Gains by which a controller may be multiplied with a stable loop and max(Ms, Mt) <= Ms.
-
-    Parameters
-    ----------
-    plant : Plant
-        The plant, dead time exact.
-    shape : Controller
-        A controller, of any form; its gain is multiplied.
-    Ms : float
-        Bound of both peaks, > 1.
-
-    Returns
-    -------
-    tuple of (low, high)
-        Intervals of factors > 0, ascending; empty where there is none. low may be 0, high math.inf.
-
-    Raises
-    ------
-    InvalidParameter
-        Ms <= 1, or too large to mean anything.
-
-    Examples
-    --------
-    e^{-s}/s under a gain reaches Ms = 2 at 0.7012:
-
-    >>> from simc_core import Plant, SeriesPid, gain_intervals
-    >>> [(low, high)] = gain_intervals(Plant(1, 1, integrators=1), SeriesPid(1, float("inf")), 2)
-    >>> low, round(high, 6)
-    (0.0, 0.70117)
-    """
-    M = peak_bound("Ms", Ms)
-    form = shape.to_parallel()
-    shapes = Shapes(np.array([[form.Kp, form.Ki, form.Kd]]), form.tau_F)
-    times = [1 / abs(root) for root in (*shape.factored.zeros, *shape.factored.poles) if root]
-    more: list[float] = []
-    for _ in range(RETRIES):
-        gains = RobustGains(plant, 0.0, [*more, *(1 / time for time in times)])
-        (gaps,) = gains.gaps(shapes, M, FINE_ZOOMS)
-        stable = [(gap.low, gap.high) for gap in gaps if _is_stable(plant, form, gap)]
-        missed = [omega for gap in stable for edge in gap for omega in _beyond(plant, form, edge, M)]
-        if not missed:
-            break
-        more += missed
-    return tuple(stable)
-
-
-def robust_region(plant: Plant, tau_I, Ms: float) -> tuple[np.ndarray, np.ndarray]:
-    """The contour max(Ms, Mt) = Ms of PI control in the plane of Kc and tau_I.
-
-    Parameters
-    ----------
-    plant : Plant
-        The plant, dead time exact.
-    tau_I : array_like, shape (n,)
-        Integral times > 0, in the user's time unit.
-    Ms : float
-        Bound of both peaks, > 1.
-
-    Returns
-    -------
-    low, high : np.ndarray, shape (n,)
-        Edges of the highest stable interval of Kc at each tau_I, with the sign that can stabilise the plant; nan where
-        no gain will do.
-
-    Raises
-    ------
-    InvalidParameter
-        Ms <= 1, or a tau_I out of bounds.
-    """
-    M = peak_bound("Ms", Ms)
-    times = np.array([checks.positive_time("tau_I", each) for each in checks.array("tau_I", tau_I, 10_000).tolist()])
-    sign = sign_of_gain(plant)
-    low, high = robust_gains(plant, float(times.max())).highest(Shapes.ideal(sign, times), M)
-    return sign * low, sign * high
 
 
 @lru_cache(maxsize=16)
@@ -306,7 +231,7 @@ def sign_of_gain(plant: Plant) -> float:
     return math.copysign(1.0, plant.k) * (-1) ** sum(tau < 0 for tau in plant.lags)
 
 
-def peak_bound(name: str, value) -> float:
+def peak_bound(name: str, value: object) -> float:
     """A bound of max(Ms, Mt)."""
     number = checks.real(name, value, high=LARGEST_M)
     if number <= 1:
@@ -328,22 +253,6 @@ def _sent_right(power: int, positive: bool, above: bool) -> int:
     return sum(math.cos(first + 2 * math.pi * i / power) > 1e-9 for i in range(power))
 
 
-def _is_stable(plant: Plant, form: ParallelPid, gap: Gap) -> bool:
-    """By the certificate, at a gain inside."""
-    high = gap.high if gap.high < math.inf else 2 * gap.low or 1.0
-    gain = math.sqrt(gap.low * high) if gap.low else high / 2
-    return stability(Loop(plant, form.rescaled(gain=gain))).verdict == "stable"
-
-
-def _beyond(plant: Plant, form: ParallelPid, edge: float, M: float) -> list[float]:
-    """Frequencies of peaks at an edge that the grid has missed."""
-    if not 0 < edge < math.inf:
-        return []
-    found = margins(Loop(plant, form.rescaled(gain=edge)))
-    peaks = ((found.Ms, found.omega_Ms), (found.Mt, found.omega_Mt))
-    return [omega for peak, omega in peaks if peak > M * (1 + EXACT) and 0 < omega < math.inf]
-
-
 def _grid(response: FactoredResponse, slowest: float, more: Sequence[float]) -> np.ndarray:
     corners = [abs(root) for root in response.roots] + [omega for omega in more if omega]
     corners += [1 / slowest] if slowest else []
@@ -351,12 +260,13 @@ def _grid(response: FactoredResponse, slowest: float, more: Sequence[float]) -> 
     theta = response.theta
     corners += [1 / theta] if theta else []
     first, last = min(corners, default=1.0) / MARGIN, max(corners, default=1.0) * (10 if theta else MARGIN)
-    parts = [[first / ENDS], [omega * (1 + shift) for omega in more for shift in (-1e-3, 0.0, 1e-3)]]
+    apart = [first / ENDS, *(omega * (1 + shift) for omega in more for shift in (-1e-3, 0.0, 1e-3))]
+    parts = [np.array(apart)]
     if theta:
         begin, end = LOGARITHMIC / theta, LAST / theta
         parts += [_geometric(first, begin), np.arange(LOGARITHMIC, LAST, PHASE_STEP) / theta, _geometric(end, last)]
     else:
-        parts += [_geometric(first, last), [last * ENDS]]
+        parts += [_geometric(first, last), np.array([last * ENDS])]
     light = [root for root in response.roots if root.imag > 0 and abs(root.real) < LIGHT * abs(root)]
     parts += [cluster(root) for root in light]
     return np.unique(np.concatenate(parts))

@@ -70,7 +70,7 @@ class _Peaks:
 
     def _S(self, loop: NestedLoops, omega: np.ndarray, rest: np.ndarray) -> np.ndarray:
         with np.errstate(divide="ignore"):
-            return 1 / np.abs(1 + rest * loop.controllers[-1].factored(1j * omega))
+            return 1 / np.abs(1 + rest * loop.outermost.factored(1j * omega))
 
     def _rest(self, omega: np.ndarray) -> np.ndarray:
         """Blocks between the outermost controller and the loop inside, and that loop closed."""

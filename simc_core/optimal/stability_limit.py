@@ -7,6 +7,7 @@ At one Kc each omega with Kc = -Re(1/G) gives such a Ki; between two of them the
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from simc_core import checks
@@ -67,8 +68,8 @@ def _limits(plant: Plant, Kc: float) -> list[float]:
     grid = RobustGains(plant)
     omega, G = grid.omega, grid.G
 
-    def excess(at) -> np.ndarray:
-        return (1 / G(1j * at)).real + Kc
+    def excess(at: ArrayLike) -> np.ndarray:
+        return (1 / G(1j * np.asarray(at))).real + Kc
 
     signs = np.sign(excess(omega))
     found = []

@@ -32,7 +32,16 @@ BISECTIONS, HIGHEST = 12, 30.0
 class Optimum:
     """The best controller under a bound.
 
-    value: the criterion.   Ms, Mt: of its loop.   active: whether the bound holds it back.
+    Attributes
+    ----------
+    controller : IdealPid or SeriesPid
+        Its settings, with the filter.
+    value : float
+        The criterion: IAE of a unit step of load or set point, or J of [SG12].
+    Ms, Mt : float
+        Peaks of its loop.
+    active : bool
+        Whether the bound holds it back.
     """
 
     controller: IdealPid | SeriesPid
@@ -54,7 +63,7 @@ class Search:
     series: bool = False
     guess: tuple[float, float] | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise InvalidParameter(f"kind must be PI or PID, got {self.kind!r}")
         if self.kind == "PI":

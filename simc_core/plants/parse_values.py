@@ -42,7 +42,9 @@ def plant_of(value: Value) -> Plant:
     gain = Fraction(1)
     found: dict[str, tuple[int, list[float], list[tuple[float, float]]]] = {}
     for name, polynomials in (("numerator", value.num), ("denominator", value.den)):
-        at_origin, times, pairs = 0, [], []
+        at_origin = 0
+        times: list[float] = []
+        pairs: list[tuple[float, float]] = []
         for polynomial in polynomials:
             zeros = next(i for i, c in enumerate(polynomial) if c)
             at_origin += zeros
@@ -55,7 +57,15 @@ def plant_of(value: Value) -> Plant:
     (zeros, leads, lead_pairs), (poles, lags, lag_pairs) = found["numerator"], found["denominator"]
     if zeros > poles:
         raise InvalidParameter(f"numerator must not vanish at s = 0 (no gain to control with), got s^{zeros - poles}")
-    return Plant(_float("k", gain), _float("theta", value.theta), lags, leads, poles - zeros, lag_pairs, lead_pairs)
+    return Plant(
+        _float("k", gain),
+        _float("theta", value.theta),
+        tuple(lags),
+        tuple(leads),
+        poles - zeros,
+        tuple(lag_pairs),
+        tuple(lead_pairs),
+    )
 
 
 def _time_constants(name: str, polynomial: Polynomial) -> tuple[list[float], list[tuple[float, float]]]:

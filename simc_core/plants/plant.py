@@ -7,10 +7,12 @@ T < 0 is a zero in the right half plane (inverse response), tau < 0 an unstable 
 1/(20 s - 1) is k = -1, tau = -20. Time has one unit, the user's own.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.algebra.factors import Factored, factors
@@ -22,10 +24,34 @@ from simc_core.errors import InvalidParameter
 class Plant:
     """Transfer function with exact dead time, see the module docstring.
 
-    k: gain of the part without integrators, in output units per input unit (per time^n).
-    theta: dead time >= 0.   lags, leads: time constants, != 0.   integrators: 0..4.
-    lag_pairs, lead_pairs: (tau, zeta) with tau > 0.
-    Raises InvalidParameter, also where the numerator has a higher degree than the denominator.
+    Parameters
+    ----------
+    k : float
+        Gain of the part without integrators, in output units per input unit (per time^n with n integrators), != 0.
+    theta : float
+        Dead time >= 0, in the user's time unit.
+    lags : tuple of float
+        Time constants tau_i of the denominator, != 0; tau < 0 is an unstable pole.
+    leads : tuple of float
+        Time constants T_j of the numerator, != 0; T < 0 is a zero in the right half plane.
+    integrators : int
+        Number n of poles at s = 0, 0 to 4.
+    lag_pairs, lead_pairs : tuple of (float, float)
+        (tau, zeta) of complex pairs, tau > 0.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds, or the numerator has a higher degree than the denominator.
+
+    Examples
+    --------
+    e^{-s}/((8 s + 1)(s + 1)) at omega = 0 and its poles:
+
+    >>> from simc_core import Plant
+    >>> plant = Plant(k=1, theta=1, lags=(8, 1))
+    >>> complex(plant.response(0)), plant.poles.real.tolist()
+    ((1+0j), [-0.125, -1.0])
     """
 
     k: float
@@ -36,7 +62,7 @@ class Plant:
     lag_pairs: tuple[tuple[float, float], ...] = ()
     lead_pairs: tuple[tuple[float, float], ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__  # the only way to normalise a frozen dataclass
         put(self, "k", checks.gain("k", self.k))
         put(self, "theta", checks.optional_time("theta", self.theta))
@@ -52,7 +78,7 @@ class Plant:
             raise InvalidParameter(f"degree of the numerator must be <= {poles}, that of the denominator, got {zeros}")
 
     @classmethod
-    def from_polynomials(cls, num, den, theta: float = 0.0) -> "Plant":
+    def from_polynomials(cls, num: Iterable[float], den: Iterable[float], theta: float = 0.0) -> "Plant":
         """num(s)/den(s) e^{-theta s}; coefficients in descending powers of s.
 
         Roots are found by eigenvalues; clusters that are one multiple root within rounding are made one.
@@ -61,7 +87,9 @@ class Plant:
         return cls.from_products([num], [den], theta)
 
     @classmethod
-    def from_products(cls, nums, dens, theta: float = 0.0) -> "Plant":
+    def from_products(
+        cls, nums: Iterable[Iterable[float]], dens: Iterable[Iterable[float]], theta: float = 0.0
+    ) -> "Plant":
         """prod(num_i)/prod(den_j) e^{-theta s}, each a polynomial; factors given apart stay exact."""
         top, bottom = factorise("numerator", nums), factorise("denominator", dens)
         integrators = bottom.at_origin - top.at_origin
@@ -71,7 +99,7 @@ class Plant:
             )
         return cls(top.constant / bottom.constant, theta, bottom.times, top.times, integrators, bottom.pairs, top.pairs)
 
-    def response(self, s) -> np.ndarray:
+    def response(self, s: ArrayLike) -> np.ndarray:
         """G(s), complex, any shape of s; exact dead time."""
         return self.factored(s)
 
@@ -186,11 +214,11 @@ def scaled(time: float, ratio: Fraction) -> float:
     return time * ratio.numerator / ratio.denominator
 
 
-def _times(name: str, values) -> tuple[float, ...]:
+def _times(name: str, values: object) -> tuple[float, ...]:
     return tuple(checks.time_constant(f"{name}[{i}]", value) for i, value in enumerate(checks.items(name, values)))
 
 
-def _pairs(name: str, values) -> tuple[tuple[float, float], ...]:
+def _pairs(name: str, values: object) -> tuple[tuple[float, float], ...]:
     pairs = []
     for i, value in enumerate(checks.items(name, values)):
         pair = checks.items(f"{name}[{i}]", value)

@@ -28,7 +28,7 @@ class SettlingFacts:
     t63: float
     from_movement: bool = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__
         put(self, "dOP", checks.gain("dOP", self.dOP))
         put(self, "dPV", checks.gain("dPV", self.dPV))
@@ -70,7 +70,7 @@ class SlopeFacts:
     theta: float
     duration: float = 1.0
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__
         put(self, "dOP", checks.gain("dOP", self.dOP))
         put(self, "dPV", checks.gain("dPV", self.dPV))

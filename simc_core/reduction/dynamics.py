@@ -50,7 +50,7 @@ def dynamics(plant: Plant) -> Dynamics:
             kept.append((tau, zeta))
         else:
             lags += _split_pair("poles", tau, zeta, steps)
-    leads = list(plant.leads) + [T for pair in lead_pairs for T in _split_lead_pair(*pair, steps)]
+    leads = list(plant.leads) + [T for T0, zeta in lead_pairs for T in _split_lead_pair(T0, zeta, steps)]
     lags, leads = _cancelled_lags(lags, leads, steps, cancelled)
     unstable = [-tau for tau in lags if tau < 0]
     _refuse(plant.integrators, unstable, kept, lags)
@@ -68,7 +68,9 @@ def dynamics(plant: Plant) -> Dynamics:
     )
 
 
-def _cancelled_pairs(plant: Plant, steps: list[Step]):
+def _cancelled_pairs(
+    plant: Plant, steps: list[Step]
+) -> tuple[list[tuple[float, float]], list[tuple[float, float]], list[BudgetEntry]]:
     """Pairs of poles and of zeros without those that are equal and damped, and the entries of these."""
     pairs, left, cancelled = list(plant.lag_pairs), [], []
     for tau, zeta in plant.lead_pairs:
@@ -114,7 +116,9 @@ def _split_lead_pair(T: float, zeta: float, steps: list[Step]) -> list[float]:
     return [sign * time for time in _split_pair("zeros", T, abs(zeta), steps)]
 
 
-def _cancelled_lags(lags: list[float], leads: list[float], steps: list[Step], cancelled: list[BudgetEntry]):
+def _cancelled_lags(
+    lags: list[float], leads: list[float], steps: list[Step], cancelled: list[BudgetEntry]
+) -> tuple[list[float], list[float]]:
     """Lags and leads without the stable ones that are equal."""
     left = []
     for T in leads:

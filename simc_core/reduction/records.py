@@ -13,8 +13,16 @@ LARGEST_MS = 2.0  # [SK03]: Ms should be below about 2; 1.4 to 1.7 is usual
 class Step:
     """One line of the reduction.
 
-    rule: its short name, e.g. "T3", "half rule".   text: a sentence in words.   equation: LaTeX.
-    amounts: the numbers in it by name.
+    Attributes
+    ----------
+    rule : str
+        Its short name, such as "T3" or "half rule".
+    text : str
+        A sentence in words.
+    equation : str
+        LaTeX.
+    amounts : dict of str to float
+        The numbers in it by name, times in the user's unit.
     """
 
     rule: str
@@ -27,11 +35,18 @@ class Step:
 class BudgetEntry:
     """What became of one lag, zero or delay of the plant.
 
-    label: e.g. "lag 6".   kind: "lag", "pair", "lead", "inverse", "dead time", "sampling", "integrator", "unstable".
-    amount: its time; math.inf for an integrator.
-    parts: (where, time). Kept in the model: "tau1", "tau2", "tau0", "theta", "slope" (an integrator), "a" (an unstable
-    pole). Gone: by the rule "T1", "T1a", "T1b", "T2", "T3", "1998 small", "1998 large", "1998 cancel", by exact
-    cancellation "=", or absorbed by an "integrator". The times of a lag add up to it.
+    Attributes
+    ----------
+    label : str
+        Such as "lag 6".
+    kind : {"lag", "pair", "lead", "inverse", "dead time", "sampling", "integrator", "unstable"}
+        What it is.
+    amount : float
+        Its time, in the user's unit; math.inf for an integrator.
+    parts : tuple of (str, float)
+        Where each part of it went, and its time; the times of a lag add up to it. Kept in the model: "tau1", "tau2",
+        "tau0", "theta", "slope" (an integrator), "a" (an unstable pole). Gone: by the rule "T1", "T1a", "T1b", "T2",
+        "T3", "1998 small", "1998 large", "1998 cancel", by exact cancellation "=", or absorbed by an "integrator".
     """
 
     label: str
@@ -42,11 +57,21 @@ class BudgetEntry:
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A self-consistent effective delay, its model, and Ms of its tight SIMC loop round the original plant.
+    """A self-consistent effective delay, and what its model is worth.
 
-    Ms: math.nan where that loop is not stable, where there is no such controller, or where only one candidate
-    exists and nothing had to be decided.   load_error: tau_I/Kc of its SIMC loop with Ms = 1.6 round the original
-    plant, math.nan where there is none.
+    Attributes
+    ----------
+    theta : float
+        The effective delay, in the user's time unit.
+    model : a reduced model
+        With this delay.
+    Ms : float
+        Of its tight SIMC loop round the original plant; math.nan where that loop is not stable, where there is no such
+        controller, or where only one candidate exists and nothing had to be decided.
+    load_error : float
+        tau_I/Kc of its SIMC loop with Ms = 1.6 round the original plant, math.nan where there is none.
+    chosen : bool
+        Whether it is the one of the reduction.
     """
 
     theta: float
@@ -83,11 +108,22 @@ class Orders:
 class Reduction:
     """Result of the half rule.
 
-    model: the reduced model.   steps: what was done, in order.   alternatives: the other self-consistent models.
-    budget: one BudgetEntry per time constant.   candidates: all self-consistent delays, smallest first.
-    notes: advice.
-    orders: what order 1 and order 2 are worth; None where the model has one form whatever the order, or an unstable
-    pole.
+    Attributes
+    ----------
+    model : a reduced model
+        What SIMC is applied to.
+    steps : tuple of Step
+        What was done, in order.
+    alternatives : tuple of reduced models
+        The other self-consistent ones.
+    budget : tuple of BudgetEntry
+        One for each time constant.
+    candidates : tuple of Candidate
+        All self-consistent delays, smallest first.
+    notes : tuple of str
+        Advice.
+    orders : Orders or None
+        What order 1 and order 2 are worth; None where the model has one form whatever the order, or an unstable pole.
     """
 
     model: Model

@@ -149,7 +149,8 @@ def _partner(T0: float, lags: list[Lag], integrators: int, comparisons: Comparis
     """The lag that a zero T0 meets, and whether it is the smaller one."""
     ordered = sorted_lags(lags, comparisons)
     zero = LineInTheta(T0)
-    above, below = [], []
+    above: list[Lag] = []
+    below: list[Lag] = []
     for lag in ordered:
         (above if comparisons.at_least(lag.tau, zero) else below).append(lag)
     if integrators and not above:

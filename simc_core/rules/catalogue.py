@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from simc_core.controllers.forms import Controller
+from simc_core.controllers.forms import IController, IdealPid, SeriesPid
 from simc_core.plants.models import FirstOrderDelay, Model
 from simc_core.rules.amigo import amigo
 from simc_core.rules.chien_hrones_reswick import chr_load_0, chr_load_20, chr_setpoint_0, chr_setpoint_20
@@ -37,7 +37,7 @@ def _anywhere(model: Model, kind: str, knob: float | None) -> bool:
 class Rule:
     """A tuning rule.
 
-    Parameters
+    Attributes
     ----------
     key : str
         Its name in RULES.
@@ -67,11 +67,11 @@ class Rule:
     needs: str
     domain: str
     knob: str | None
-    settings: Callable[..., Controller]
+    settings: Callable[..., SeriesPid | IdealPid | IController]
     within: Within = _anywhere
 
 
-def _simc(model: Model, kind: str, tau_c: float | None = None) -> Controller:
+def _simc(model: Model, kind: str, tau_c: float | None = None) -> SeriesPid | IdealPid | IController:
     return simc(model, tau_c)
 
 

@@ -22,12 +22,13 @@ def spectral(model: Model, kind: str = "PI", Ki: float | None = None) -> SeriesP
             raise OutOfDomain(
                 f"model must be a second-order one with dead time for the rule {rule}, got {type(model).__name__}"
             )
-        T1, T2 = model.tau1, model.tau2
+        k, T1, T2 = model.k, model.tau1, model.tau2
         if T1 == 0:
             raise OutOfDomain(f"tau1 must be > 0 for the rule {rule}, got 0")
     else:
-        T1, T2 = lag(model, rule).tau1, 0.0
+        first = lag(model, rule)
+        k, T1, T2 = first.k, first.tau1, 0.0
     if Ki is None:
-        Ki = 1 / (2 * model.k * dead_time(model.theta, rule))
+        Ki = 1 / (2 * k * dead_time(model.theta, rule))
     Ki = checks.gain("Ki", Ki)
     return SeriesPid(Ki * T1, T1, T2)

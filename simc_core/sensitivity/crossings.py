@@ -19,7 +19,7 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -35,6 +35,8 @@ FAR = 99.0  # |log|L|| at a phase crossing is smaller
 STEPS = 70  # of the polishing; two are usual
 SURE = 5  # steps after which every other one halves the bracket
 GAIN, PHASE, S_PEAK, T_PEAK = range(4)
+
+Known = TypeVar("Known")  # what else is known where a function was evaluated
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -115,7 +117,7 @@ def from_negative(log: np.ndarray) -> np.ndarray:
     return math.pi - (-log.imag) % math.tau
 
 
-def _functions(log, first, second, S, T) -> np.ndarray:
+def _functions(log: np.ndarray, first: np.ndarray, second: np.ndarray, S: np.ndarray, T: np.ndarray) -> np.ndarray:
     """The four functions whose zeros are sought, and their derivatives, shape (2, 4, n)."""
     of_S, of_T = T * first, S * first
     bend = T * second + of_S * of_T
@@ -153,10 +155,10 @@ def _hidden(evaluate: Evaluate, grid: Grid, functions: np.ndarray, changes: np.n
     kind, at, omega, outer = kind[turns], at[turns], omega[:, turns], outer[0, turns]
     owner, is_gain = grid.owner[at], kind == GAIN
 
-    def parts(samples):
+    def parts(samples: np.ndarray) -> np.ndarray:
         return np.where(is_gain, samples.real, samples.imag)
 
-    def slope(omega):
+    def slope(omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         samples = sampled(evaluate, omega, owner)
         return parts(samples[1]), parts(samples[2]), samples
 
@@ -177,7 +179,7 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
     kind, owner, ends = brackets
     each = np.arange(kind.size)
 
-    def function(omega):
+    def function(omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, tuple[np.ndarray, np.ndarray]]:
         log, first, second = evaluate(omega, owner)
         value, slope = _functions(log, first, second, *sensitivities(log))[:, kind, each]
         return value, slope, (log, first)
@@ -190,7 +192,9 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
     return omega + step, what, crossed | (kind != PHASE)
 
 
-def _zeros(function: Callable, ends: np.ndarray, settled: np.ndarray):
+def _zeros(
+    function: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, Known]], ends: np.ndarray, settled: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, Known]:
     """Zeros of `function` in brackets, by the steps of the module docstring.
 
     function: value and slope at omega, and what else is known there.   ends: omega, value, slope at both, (3, 2, n).

@@ -32,8 +32,8 @@ def delay_bound(loop: Loop) -> float:
     if last and last / abs(1 - last if response.theta else 1 + gain) >= 0.5:
         return 0.0
 
-    def allowed(omega) -> np.ndarray:
-        size = np.maximum(np.abs(sensitivities(response.log_derivatives(np.atleast_1d(omega))[0])[1]), 0.5)
+    def allowed(omega: np.ndarray) -> np.ndarray:
+        size = np.maximum(np.abs(sensitivities(response.log_derivatives(omega)[0])[1]), 0.5)
         return 2 * np.arcsin(0.5 / size) / omega * np.where(size > 0.5, 1.0, math.inf)
 
     omega = search_grid([response], lambda omega, _: response.log_derivatives(omega)).omega
@@ -43,6 +43,9 @@ def delay_bound(loop: Loop) -> float:
     i = int(values.argmin())
     ends = math.log(omega[max(i - 1, 0)]), math.log(omega[min(i + 1, len(omega) - 1)])
     found = minimize_scalar(
-        lambda x: float(allowed(math.exp(x))[0]), bounds=ends, method="bounded", options={"xatol": PRECISION}
+        lambda x: float(allowed(np.full(1, math.exp(x)))[0]),
+        bounds=ends,
+        method="bounded",
+        options={"xatol": PRECISION},
     )
     return min(float(found.fun), float(values[i]))

@@ -39,7 +39,18 @@ class Asymptote(NamedTuple):
     power: int
 
 
-class Response(Protocol):
+class Ends(Protocol):
+    """The ends of a loop transfer function, at s = 0 and at infinity.   theta: its dead time."""
+
+    @property
+    def theta(self) -> float: ...
+    @property
+    def at_zero(self) -> Asymptote: ...
+    @property
+    def at_infinity(self) -> Asymptote: ...
+
+
+class Response(Ends, Protocol):
     """A loop transfer function as the search sees it.
 
     log_derivatives(omega): log L, and its first and second derivative in omega, complex, shape of omega.
@@ -47,10 +58,8 @@ class Response(Protocol):
     roots: poles and zeros other than 0, and whatever else makes |L| or arg L bend; a rough value is enough.
     """
 
-    theta: float
-    roots: list[complex]
-    at_zero: Asymptote
-    at_infinity: Asymptote
+    @property
+    def roots(self) -> list[complex]: ...
 
     def log_derivatives(self, omega: np.ndarray) -> Logs: ...
 

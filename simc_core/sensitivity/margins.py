@@ -73,6 +73,15 @@ def crossings(loop: Loop | CascadeLoop | NestedLoops) -> Crossings:
     ------
     WrongType
         `loop` is no loop.
+
+    Examples
+    --------
+    The magnitude of e^{-s}/(2 s) is 1 at omega = 1/2, where the phase margin is 90 degrees less 1/2 rad:
+
+    >>> from simc_core import Loop, Plant, SeriesPid, crossings
+    >>> found = crossings(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)))
+    >>> found.gain_omega.round(9).tolist(), found.gain_phase.round(9).tolist()
+    ([0.5], [1.070796327])
     """
     match loop:
         case Loop():
@@ -104,6 +113,15 @@ def margins_many(loops: Sequence[Loop], verdicts: Sequence[Stability] | None = N
     ------
     InvalidParameter
         Where `stability` does for one of them.
+
+    Examples
+    --------
+    GM = pi/(2 K theta) of K e^{-theta s}/s:
+
+    >>> from simc_core import Loop, Plant, SeriesPid, margins_many
+    >>> loops = [Loop(Plant(1, 1, integrators=1), SeriesPid(K, float("inf"))) for K in (0.25, 0.5)]
+    >>> [round(each.GM, 6) for each in margins_many(loops)]
+    [6.283185, 3.141593]
     """
     verdicts = stability_many(loops) if verdicts is None else verdicts
     stable = [i for i, verdict in enumerate(verdicts) if verdict.verdict == "stable"]

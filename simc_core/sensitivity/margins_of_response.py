@@ -13,17 +13,33 @@ nothing: they are all math.nan.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
 from simc_core.sensitivity.crossings import Crossings, search
-from simc_core.sensitivity.log_response import Response
+from simc_core.sensitivity.log_response import Ends, Response
 
 
 @dataclass(frozen=True, slots=True)
 class Margins:
-    """See the module docstring. omega in rad per time unit; stable: False means nan everywhere else."""
+    """Margins and peaks of a loop; the module docstring defines them. nan everywhere where the loop is not stable.
+
+    Attributes
+    ----------
+    GM, GM_lower : float
+        Factors on the gain at which the loop reaches its limit, > 1 and < 1; math.inf and 0.0 where there is none.
+    PM_deg : float
+        Phase margin, in degrees.
+    delay_margin : float
+        Additional dead time at which the loop reaches its limit, in the user's time unit.
+    Ms, Mt : float
+        Largest abs(1/(1 + L)) and abs(L/(1 + L)).
+    omega_180, omega_c, omega_Ms, omega_Mt : float
+        Where GM, PM_deg, Ms and Mt are, in rad per time unit.
+    stable : bool
+        Whether the loop is.
+    """
 
     GM: float
     GM_lower: float
@@ -41,7 +57,7 @@ class Margins:
 ROUNDING = 1e-12
 BEYOND = 1e-6  # what the envelope is good for
 
-NOT_STABLE = Margins(*[math.nan] * 10, stable=False)
+NOT_STABLE = Margins(**{field.name: math.nan for field in fields(Margins)[:-1]}, stable=False)
 
 
 def margins_of(response: Response) -> Margins:
@@ -56,18 +72,27 @@ def margins_of(response: Response) -> Margins:
     -------
     Margins
         As of `margins`.
+
+    Examples
+    --------
+    Of e^{-s}/(2 s), written as a product of factors:
+
+    >>> from simc_core import Loop, Plant, SeriesPid, margins_of
+    >>> from simc_core.sensitivity.log_response import FactoredResponse
+    >>> round(margins_of(FactoredResponse(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)).L)).GM, 6)
+    3.141593
     """
     return margins_from(response, search(response))
 
 
-def margins_from(response: Response, found: Crossings) -> Margins:
+def margins_from(response: Ends, found: Crossings) -> Margins:
     """margins_of, where the crossings are known."""
     limits = _limits(response)
-    S_ends, T_ends = zip(*map(_sensitivities, limits), strict=True)
+    (S_0, T_0), (S_inf, T_inf) = map(_sensitivities, limits)
     GM, GM_lower, omega_180 = _gain_margins(limits, found)
     PM, omega_c = _phase_margin(found)
-    Ms, omega_Ms = _peak(found.S_peak, found.S_omega, S_ends, found.envelope[0])
-    Mt, omega_Mt = _peak(found.T_peak, found.T_omega, T_ends, found.envelope[1])
+    Ms, omega_Ms = _peak(found.S_peak, found.S_omega, (S_0, S_inf), found.envelope[0])
+    Mt, omega_Mt = _peak(found.T_peak, found.T_omega, (T_0, T_inf), found.envelope[1])
     return Margins(
         GM=GM,
         GM_lower=GM_lower,
@@ -83,7 +108,7 @@ def margins_from(response: Response, found: Crossings) -> Margins:
     )
 
 
-def _limits(response: Response) -> tuple[float, float]:
+def _limits(response: Ends) -> tuple[float, float]:
     """L(0) and L(inf), real, perhaps infinite; at infinity -|L| for a neutral loop, which gets there at any phase."""
     at = []
     for (gain, power), sign in ((response.at_zero, 1), (response.at_infinity, -1)):
@@ -110,14 +135,14 @@ def _phase_margin(found: Crossings) -> tuple[float, float]:
     return min(crossed, default=(math.inf, math.nan))
 
 
-def _delay_margin(response: Response, limits: tuple[float, float], found: Crossings) -> float:
+def _delay_margin(response: Ends, limits: tuple[float, float], found: Crossings) -> float:
     if response.theta == 0 and abs(limits[1]) >= 1:
         return 0.0  # any dead time at all makes it a neutral loop with |L(inf)| >= 1
     crossed = zip(found.gain_phase.tolist(), found.gain_omega.tolist(), strict=True)
     return min([phase % (2 * math.pi) / omega for phase, omega in crossed], default=math.inf)
 
 
-def _peak(peaks: np.ndarray, omegas: np.ndarray, ends: list[float], envelope: float) -> tuple[float, float]:
+def _peak(peaks: np.ndarray, omegas: np.ndarray, ends: tuple[float, float], envelope: float) -> tuple[float, float]:
     """The largest of the peaks, of the values at omega = 0 and at infinity, and of the envelope, and where it is."""
     best = max(zip(ends, (0.0, math.inf), strict=True))
     highest = max(zip(peaks.tolist(), omegas.tolist(), strict=True), default=best)

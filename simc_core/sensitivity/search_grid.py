@@ -104,7 +104,9 @@ def _envelopes(n: int, owner: np.ndarray, size: np.ndarray, beyond: np.ndarray) 
     return list(zip((1 / (1 - x) * (x > 0)).tolist(), (x / (1 - x)).tolist(), strict=True))
 
 
-def _refined(evaluate: Evaluate, omega, owner, samples, pieces: np.ndarray):
+def _refined(
+    evaluate: Evaluate, omega: np.ndarray, owner: np.ndarray, samples: np.ndarray, pieces: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Interval i in pieces[i] equal parts; omega, owner and samples of all nodes."""
     at = np.flatnonzero(pieces > 1)
     interval, place = ragged(pieces[at] - 1)

@@ -151,7 +151,7 @@ def _delayed(z: np.ndarray, k: int, reach: np.ndarray, from_left: bool = False) 
     return found
 
 
-def _ramps(system: Network, tracking: np.ndarray, dt: float):
+def _ramps(system: Network, tracking: np.ndarray, dt: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Phi, and what (w, v, e) at the start and at the end of a step add, all running linearly."""
     n = len(system.A)
     inputs = np.column_stack([system.B, system.E, system.E[:, 1] + tracking])

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter, WrongType
@@ -16,13 +17,35 @@ LINEAR = Actuation()
 class Scenario:
     """A step or ramp of r at t = 0, and one of d at the plant input at disturbance_time.
 
-    disturbance2, disturbance2_time: the same at the input of the innermost block of nested loops; others have none.
-    setpoint, disturbance: heights.   setpoint_ramp, disturbance_ramp: times in which these are reached, 0 for a step;
-    nested loops have steps only.
-    disturbance_time, t_end: None for half the horizon, and a horizon in which the
-    slowest mode of the loop settles to 1 %.   points: instants on the grid; at a jump both limits are added.
-    t: explicit increasing instants, returned exactly as given, right-hand limits at jumps.
-    actuation: limits, noise and sampling between controller and plant; by default the loop is linear.
+    Parameters
+    ----------
+    setpoint, disturbance : float
+        Heights, in units of the output and of the input.
+    disturbance_time, t_end : float or None
+        In the user's time unit. None: half the horizon, and a horizon in which the slowest mode of the loop settles to
+        1 %.
+    points : int
+        Instants on the grid; at a jump both limits are added.
+    t : np.ndarray or None, shape (n,)
+        Increasing instants >= 0, returned exactly as given, right-hand limits at jumps.
+    disturbance2, disturbance2_time : float, float or None
+        As disturbance, at the input of the innermost block of nested loops; others have none.
+    setpoint_ramp, disturbance_ramp : float
+        Times in which the heights are reached, in the user's time unit, 0 for a step; nested loops have steps only.
+    actuation : Actuation
+        Limits, noise and sampling between controller and plant; by default the loop is linear.
+
+    Raises
+    ------
+    InvalidParameter
+        A number is out of its bounds, or `t` does not increase.
+
+    Examples
+    --------
+    >>> from simc_core import Loop, Plant, Scenario, SeriesPid, simulate
+    >>> found = simulate(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)), Scenario(disturbance=0, t_end=20))
+    >>> float(found.t[-1]), float(found.d.max())
+    (20.0, 0.0)
     """
 
     setpoint: float = 1.0
@@ -37,7 +60,7 @@ class Scenario:
     disturbance_ramp: float = 0.0
     actuation: Actuation = LINEAR
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         put = object.__setattr__
         for name in ("setpoint", "disturbance", "disturbance2"):
             put(self, name, checks.real(name, getattr(self, name), -checks.LARGEST_GAIN, checks.LARGEST_GAIN))
@@ -57,7 +80,17 @@ class Scenario:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TimeResponse:
-    """Arrays of shape (n,): time, set point, input disturbance, output, plant input without the disturbance."""
+    """What a loop does in time.
+
+    Attributes
+    ----------
+    t : np.ndarray, shape (n,)
+        Instants, in the user's time unit.
+    r, y : np.ndarray, shape (n,)
+        Set point and output.
+    d, u : np.ndarray, shape (n,)
+        Disturbance at the plant input, and plant input without it.
+    """
 
     t: np.ndarray
     r: np.ndarray
@@ -66,7 +99,7 @@ class TimeResponse:
     u: np.ndarray
 
 
-def instants(given) -> np.ndarray:
+def instants(given: ArrayLike) -> np.ndarray:
     """`given` as increasing instants >= 0, shape (n,). Raises InvalidParameter."""
     t = checks.array("t", given, MOST_POINTS)
     if not np.all(np.isfinite(t)) or t[0] < 0 or np.any(np.diff(t) < 0):

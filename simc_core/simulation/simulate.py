@@ -1,6 +1,7 @@
 """Time responses of a loop: unit steps put together to a scenario, or, with limits, noise or sampling, step by step."""
 
 from functools import lru_cache
+from typing import overload
 
 import numpy as np
 
@@ -18,6 +19,10 @@ from simc_core.simulation.simulate_nested import NestedResponse, simulate_nested
 from simc_core.simulation.superposition import doubled, superposed
 
 
+@overload
+def simulate(loop: Loop, scenario: Scenario | None = None) -> TimeResponse: ...
+@overload
+def simulate(loop: CascadeLoop | NestedLoops, scenario: Scenario | None = None) -> NestedResponse: ...
 def simulate(loop: Loop | CascadeLoop | NestedLoops, scenario: Scenario | None = None) -> TimeResponse | NestedResponse:
     """y and u for a scenario, from rest, with the dead time exact. Unstable loops are simulated as well.
 
@@ -68,8 +73,8 @@ def _single(loop: Loop, scenario: Scenario) -> TimeResponse:
         inputs = Inputs(scenario.setpoint, scenario.disturbance, begins, t_end, *ramps)
         return on_grid(actuated(loop, scenario.actuation, inputs), inputs, scenario.points, scenario.t)
     heights, starts = (scenario.setpoint, scenario.disturbance), (0.0, begins)
-    t, inputs, outputs = superposed(unit_steps(loop, t_end), heights, starts, t_end, scenario, ramps)
-    return TimeResponse(t, *inputs, *outputs)
+    t, (r, d), (y, u) = superposed(unit_steps(loop, t_end), heights, starts, t_end, scenario, ramps)
+    return TimeResponse(t, r, d, y, u)
 
 
 @lru_cache(maxsize=32)  # one design is simulated and measured, and both begin here
@@ -92,10 +97,12 @@ def unit_steps(loop: Loop, t_end: float) -> Pieces:
 
 def on_grid(course: Stepped, inputs: Inputs, points: int, t: np.ndarray | None = None) -> TimeResponse:
     """A course of steps at the instants t; None: at `points` instants, both limits at its jumps."""
-    begins, left = inputs.disturbance_time, []
+    begins = inputs.disturbance_time
     if t is None:
         jumps = np.unique(np.concatenate([[0.0, begins], course.jumps()]))
-        t, left = doubled(np.linspace(0.0, inputs.t_end, points), jumps[jumps <= inputs.t_end])
+        t, left = doubled(np.linspace(0.0, inputs.t_end, points), jumps[jumps <= inputs.t_end].tolist())
+    else:
+        left = np.zeros(len(t), dtype=bool)
     y, u = course.at(t)
     r, d = inputs.r(t), inputs.d(t)
     y[left], u[left] = course.before(t[left])

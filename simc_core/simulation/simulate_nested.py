@@ -7,7 +7,7 @@ from numpy.polynomial import chebyshev
 
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import NestedLoops
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.horizon import round_up
 from simc_core.simulation.scenario import Scenario
@@ -23,9 +23,14 @@ SAMPLES = 24  # instants in a piece at which a horizon is judged
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NestedResponse:
-    """t, r of shape (n,); ds, ys, us (N, n) from the inside out: disturbances, outputs, controller outputs.
+    """What nested loops do in time; of a cascade also y = y1, y2, its set point r2, d = d1, d2, and u, the input of Gb.
 
-    Of a cascade: y = y1, y2 and its set point r2, d = d1, d2, and u, the input of Gb.
+    Attributes
+    ----------
+    t, r : np.ndarray, shape (n,)
+        Instants, in the user's time unit, and set point of the outermost loop.
+    ds, ys, us : np.ndarray, shape (N, n)
+        From the inside out: disturbances at the inputs of the blocks, their outputs, outputs of the controllers.
     """
 
     t: np.ndarray
@@ -80,7 +85,7 @@ def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
     heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d
     starts, t_end = _times(loop, scenario, heights)
     pieces = steps_of(loop).run(t_end)
-    t, inputs, outputs = superposed(pieces, heights, starts, t_end, scenario)
+    t, inputs, outputs = superposed(pieces, heights.tolist(), starts.tolist(), t_end, scenario)
     return NestedResponse(t, inputs[0], inputs[1:], outputs[:N], outputs[N:])
 
 

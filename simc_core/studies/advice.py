@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
 from simc_core.errors import FormError, NotReducible
 from simc_core.notation import number
 from simc_core.plants.models import (
@@ -147,7 +147,7 @@ def slowest_useful(plant: Plant, model: Model) -> float:
 
 
 def derivative_noise(of: Tuned) -> Advice | None:
-    """Derivative action without a filter, or the noise gain Kd/tau_F with it."""
+    """Derivative action without a filter, or the high-frequency gain Kd/tau_F with it."""
     form = of.controller.to_parallel()
     if not form.Kd:
         return None
@@ -155,8 +155,9 @@ def derivative_noise(of: Tuned) -> Advice | None:
         gain = abs(form.Kd) / form.tau_F
         times = f", {number(gain / abs(form.Kp), 3)} times Kp" if form.Kp else ""
         text = f"Fast measurement noise reaches the input with this gain{times}. A larger tau_F lowers it."
-        return Advice("note", "Noise gain Kd/tau_F", text, gain)
+        return Advice("note", "High-frequency gain Kd/tau_F", text, gain)
     change, Ms = filter_that_costs_little(of)
+    assert isinstance(of.controller, SeriesPid | IdealPid)  # SIMC with derivative action
     tau_F = change["filter"] * of.controller.tau_D
     remedy = f"Set tau_F/tau_D = {number(change['filter'])}, tau_F = {number(tau_F, 3)}"
     remedy += f": Ms becomes {number(Ms, 3)}." if math.isfinite(Ms) else "."
@@ -219,7 +220,7 @@ def delivered(controller: Controller) -> str:
     """What the controller is: I, PI or PID."""
     if isinstance(controller, IController):
         return "I"
-    return "PID" if controller.tau_D else "PI"
+    return "PID" if controller.to_parallel().Kd else "PI"
 
 
 def advice_on_settings(plant: Plant, controller: Controller) -> tuple[Advice, ...]:

@@ -1,65 +1,31 @@
-"""Tuning rules compared fairly: on one plant, as published and at equal robustness, beside the optimum.
-
-Equal robustness. A rule with a parameter of its own uses it. Every other rule is applied to the same model with its
-dead time multiplied by F (an ultimate point becomes Ku/F, F Pu), tau_D kept. F is the value nearest to 1 at which
-max(Ms, Mt) of the loop round the plant falls through M: F = 1 is the rule as published, with F = 2 it needs its dead
-time doubled to be as robust as M, and with F < 1 it is more cautious than M. The parameters follow F as
-
-    tau_c + theta = F (their sum as published)      simc, improved_simc, isimc
-    epsilon, lambda_, beta times F, Ki over F       all others
-
-Gain alone would be no fair measure: rules with tau_I ~ theta oscillate slowly at low gain too.
-"""
+"""Tuning rules compared fairly: on one plant, as published and at equal robustness, beside the optimum."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
-from scipy.optimize import brentq
 
-from simc_core import checks
 from simc_core.certificate.verdict import stability
-from simc_core.controllers.forms import Controller, IController, ParallelPid
+from simc_core.controllers.forms import Controller
 from simc_core.errors import NoOptimum, SimcError
 from simc_core.loops.loop import Loop
 from simc_core.metrics.performance import performance
 from simc_core.optimal.criterion import J, References
 from simc_core.optimal.robust_gains import peak_bound
-from simc_core.optimal.under_ms import Search, references
-from simc_core.plants.models import FirstOrderDelay, Model, UnstableDelay
+from simc_core.optimal.under_ms import Optimum, Search, references
+from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
-from simc_core.plants.ultimate_point import Ultimate
-from simc_core.rules.catalogue import RULES, Rule
-from simc_core.rules.imc_1986 import PI_EPSILON, PID_EPSILON
-from simc_core.rules.simc import default_tau_c
-from simc_core.sensitivity.margins import margins_many
+from simc_core.rules.catalogue import RULES
+from simc_core.studies.equal_robustness import HIGHEST, at_equal_robustness, detunable, filtered, peaks
 from simc_core.studies.optimum import FILTER, scale_of, search_for, trade_off
-from simc_core.studies.tune import rule_of, subject_of, tune
+from simc_core.studies.tune import rule_of, subject_of
 
-FACTORS = np.geomspace(0.3, 6, 41)
-WIDE = np.geomspace(0.01, 30, 61)  # of rules that start from the lag, or from another unit than theta
-COMPARED = np.geomspace(1.15, 5, 14)  # bounds of the front that published rules are compared with
-BETA = 2.0  # of the desired model as published: SIMC with tau_c = theta
-PRECISION = 1e-10  # of log F
-EQUAL = 1e-5  # logarithms of peaks
-NEAR = 0.03  # behind the optimum: rules so near are compared with one of their own peak, not with the front
-HIGHEST = 1e6  # a peak beyond counts as no loop
-FROM_ELSEWHERE = ("lambda", "lee_1998", "spectral")  # rules whose F = 1 may be far from M
-
-
-@dataclass(frozen=True, slots=True)
-class EqualRobustness:
-    """A rule detuned, or sharpened, to max(Ms, Mt) = M.
-
-    controller: with the filter; None where M is not reachable, as is factor.   factor: F of the module docstring.
-    published_Ms: max(Ms, Mt) of the rule as printed, nan where that loop is not stable.
-    """
-
-    controller: Controller | None
-    factor: float | None
-    published_Ms: float
+COMPARED = np.geomspace(1.15, 5, 14).tolist()  # bounds of the front that published rules are compared with
+EQUAL_PEAKS = 1e-5  # logarithms of peaks that are one
+NEAR_OPTIMUM = 0.03  # behind the optimum: rules so near are compared with one of their own peak, not with the front
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +35,8 @@ class Row:
     controller: the one that is judged, as published or at equal robustness; None where there is none, `refusal` says
     why.   published_Ms, factor: as in EqualRobustness.   Mst: max(Ms, Mt).   load, setpoint: IAE of unit steps at the
     input and at the output.   J: [SG12], nan where there is no reference.   TV: of u after a load step.
-    noise_gain: Kc tau_D/tau_F, Kc for PI.   behind: load over that of the optimum with the same bound, minus 1.
+    high_frequency_gain: |C| there, Kd/tau_F, or Kp without derivative action.
+    behind: load over that of the optimum with the same bound, minus 1.
     in_domain: whether the source recommends it here.
     """
 
@@ -83,155 +50,10 @@ class Row:
     setpoint: float
     J: float
     TV: float
-    noise_gain: float
+    high_frequency_gain: float
     behind: float
     in_domain: bool
     refusal: str = ""
-
-
-def at_equal_robustness(
-    key: str,
-    plant: Plant,
-    kind: str = "PI",
-    Ms: float = 1.59,
-    tau_F: float | None = None,
-    model: Model | None = None,
-) -> EqualRobustness:
-    """A tuning rule made as robust as any other: max(Ms, Mt) = Ms round the plant.
-
-    Parameters
-    ----------
-    key : str
-        A name in RULES.
-    plant : Plant
-        The plant that the loops are judged on, dead time exact.
-    kind : str
-        "P", "PI", "PD" or "PID", as the rule has it.
-    Ms : float
-        Peak asked for, > 1.
-    tau_F : float, optional
-        Filter of controllers with derivative action, in the user's time unit. None: 0.1 theta of the half-rule model.
-    model : Model, optional
-        The reduced model that the rule is applied to. None: that of the half rule.
-
-    Returns
-    -------
-    EqualRobustness
-        Controller, factor and the peak of the rule as published; controller and factor None where Ms is not reachable.
-
-    Raises
-    ------
-    OutOfDomain
-        The rule has no setting for this plant.
-    NotReducible
-        The plant has no reduced model, or no ultimate point.
-    InvalidParameter
-        No such rule, or a number out of its bounds.
-
-    References
-    ----------
-    [SG12], [GS18]
-
-    Examples
-    --------
-    SIMC itself has Ms = 1.59 on a first-order plant:
-
-    >>> from simc_core import Plant, at_equal_robustness
-    >>> round(at_equal_robustness("simc", Plant(1, 1, (8,))).factor, 4)
-    1.0006
-    """
-    M = peak_bound("Ms", Ms)
-    detuned = detunable(key, plant, kind, tau_F, model)
-    published = _peaks(plant, [detuned(1.0)])[0]
-    factor = _factor(plant, detuned, M, WIDE if key in FROM_ELSEWHERE else FACTORS)
-    return EqualRobustness(
-        None if factor is None else detuned(factor), factor, published if published < HIGHEST else math.nan
-    )
-
-
-def detunable(
-    key: str, plant: Plant, kind: str, tau_F: float | None = None, model: Model | None = None
-) -> Callable[[float], Controller]:
-    """The rule as a function of F; at F = 1 it is the rule as published, with the filter."""
-    rule = rule_of(key)
-    subject = subject_of(rule, plant if model is None or rule.needs != "model" else model, kind)
-    filter_ = checks.optional_time("tau_F", FILTER * scale_of(plant) if tau_F is None else tau_F)
-    without_default = rule.knob == "tau_c" and not getattr(subject, "theta", 1.0)
-    published = None if without_default else tune(key, subject, kind)
-    setting = _knob(rule, subject, kind)
-
-    def at(factor: float) -> Controller:
-        if setting is not None:
-            return filtered(tune(key, subject, kind, **{rule.knob: setting(factor)}), filter_)
-        controller = tune(key, _longer(subject, factor), kind) if factor != 1 else published
-        if not isinstance(controller, IController):
-            controller = replace(controller, tau_D=published.tau_D)
-        return filtered(controller, filter_)
-
-    return at
-
-
-def filtered(controller: Controller, tau_F: float) -> Controller:
-    """With the filter, and c = 1, where there is derivative action."""
-    if isinstance(controller, IController) or not controller.to_parallel().Kd:
-        return controller
-    return replace(controller, tau_F=tau_F, c=float(tau_F > 0))
-
-
-def _knob(rule: Rule, subject: Model | Ultimate | Plant, kind: str) -> Callable[[float], float] | None:
-    """The rule's own parameter as a function of F, None if it has none or knows one value only."""
-    if rule.knob is None or isinstance(subject, UnstableDelay):
-        return None
-    theta = subject.theta
-    match rule.knob:
-        case "tau_c":
-            usual = theta / 2 if rule.key == "isimc" else default_tau_c(subject)
-            return lambda factor: factor * (usual + theta) - theta
-        case "lambda_":
-            lag = rule.key == "lambda" and isinstance(subject, FirstOrderDelay)
-            usual = subject.tau1 if lag else 3 * theta if rule.key == "lambda" else theta
-        case "epsilon":
-            usual = (PID_EPSILON if kind == "PID" else PI_EPSILON) * theta
-        case "beta":
-            usual = BETA
-        case _:
-            return lambda factor: 1 / (2 * subject.k * theta * factor)
-    return lambda factor: factor * usual
-
-
-def _longer(subject: Model | Ultimate | Plant, factor: float) -> Model | Ultimate | Plant:
-    """With its dead time multiplied."""
-    if isinstance(subject, Ultimate):
-        return Ultimate(subject.Ku / factor, subject.Pu * factor)
-    return replace(subject, theta=subject.theta * factor)
-
-
-def _factor(plant: Plant, detuned: Callable[[float], Controller], M: float, factors: np.ndarray) -> float | None:
-    """F nearest to 1 at which the peak falls through M."""
-    made = []
-    for factor in factors.tolist():
-        try:
-            made.append((factor, detuned(factor)))
-        except SimcError:
-            continue  # no setting with this F
-    peaks = np.array(_peaks(plant, [controller for _, controller in made]))
-    tried = np.array([factor for factor, _ in made])
-    falls = np.flatnonzero((peaks[:-1] > M) & (peaks[1:] <= M)).tolist()
-    found = []
-    for i in falls:
-        low, high = math.log(tried[i]), math.log(tried[i + 1])
-
-        def excess(x: float) -> float:
-            return math.log(_peaks(plant, [detuned(math.exp(x))])[0] / M)
-
-        found.append(math.exp(brentq(excess, low, high, xtol=PRECISION)))
-    return min(found, key=lambda factor: abs(math.log(factor)), default=None)
-
-
-def _peaks(plant: Plant, controllers: Sequence[Controller]) -> list[float]:
-    """max(Ms, Mt) of each loop, HIGHEST where it is not stable."""
-    found = margins_many([Loop(plant, each) for each in controllers])
-    return [min(max(each.Ms, each.Mt), HIGHEST) if each.stable else HIGHEST for each in found]
 
 
 def comparison(
@@ -265,6 +87,15 @@ def comparison(
     ------
     InvalidParameter
         A number out of its bounds, or no such rule.
+
+    Examples
+    --------
+    SIMC as published has the load error tau_I/Kc = 8/4 on a first-order plant [SK03]; Ziegler and Nichols' is sharper:
+
+    >>> from simc_core import Plant, comparison
+    >>> rows = comparison(Plant(1, 1, (8,)), ["PI"], keys=["simc", "zn_step"])
+    >>> [(row.key, round(row.load, 3), round(row.Mst, 2)) for row in rows]
+    [('simc', 2.0, 1.59), ('zn_step', 0.498, 3.27)]
     """
     M = None if Ms is None else peak_bound("Ms", Ms)
     for key in keys:
@@ -272,11 +103,13 @@ def comparison(
     return _rows(plant, kinds, M, tau_F, keys)
 
 
-def _rows(plant: Plant, kinds: Sequence[str], M: float | None, tau_F: float | None, keys) -> Iterator[Row]:
+def _rows(
+    plant: Plant, kinds: Sequence[str], M: float | None, tau_F: float | None, keys: Sequence[str]
+) -> Iterator[Row]:
     judge = _Judge(plant, M, FILTER * scale_of(plant) if tau_F is None else tau_F)
     for kind in kinds:
         if M is not None:
-            yield judge.best(kind)
+            yield judge.best(kind, M)
         for key in keys:
             if kind in RULES[key].kinds:
                 yield judge.rule(key, kind)
@@ -290,10 +123,10 @@ class _Judge:
         self.references = self._references()
         self.fronts: dict[str, np.ndarray] = {}
 
-    def best(self, kind: str) -> Row:
+    def best(self, kind: str, M: float) -> Row:
         """The optimum."""
         try:
-            found = self._search(kind).best(self.M)[0]
+            found = self._search(kind).best(M)[0]
         except SimcError as refused:
             return _none("optimal", kind, math.nan, str(refused))
         controller = filtered(found.controller, found.controller.tau_F)
@@ -304,20 +137,20 @@ class _Judge:
         try:
             detuned = detunable(key, self.plant, kind, self.tau_F)
             controller = detuned(1.0)
-            published, factor = _peaks(self.plant, [controller])[0], 1.0
-            published = published if published < HIGHEST else math.nan
+            highest, factor = peaks(self.plant, [controller])[0], 1.0
+            published = highest if highest < HIGHEST else math.nan
             if self.M is not None:
                 found = at_equal_robustness(key, self.plant, kind, self.M, self.tau_F)
-                controller, factor = found.controller, found.factor
-                if controller is None:
+                if found.controller is None or found.factor is None:
                     return _none(key, kind, published, f"Ms = {self.M:g} is not reachable by this rule")
+                controller, factor = found.controller, found.factor
             return self._row(key, kind, controller, published, factor, self._recommended(key, kind))
         except SimcError as refused:
             return _none(key, kind, math.nan, str(refused))
 
     def _row(self, key: str, kind: str, controller: Controller, published: float, factor: float, honoured: bool) -> Row:
         loop = Loop(self.plant, controller)
-        Mst = _peaks(self.plant, [controller])[0]
+        Mst = peaks(self.plant, [controller])[0]
         if stability(loop).verdict != "stable":
             return replace(_none(key, kind, published, "the loop is not stable"), controller=controller)
         both = performance(loop)
@@ -334,7 +167,7 @@ class _Judge:
             setpoint,
             float(J(self.references, setpoint, load)) if self.references else math.nan,
             both.disturbance.TV,
-            noise_gain(controller),
+            high_frequency_gain(controller),
             behind,
             honoured,
         )
@@ -343,23 +176,22 @@ class _Judge:
         """Relative distance of the load error to that of the best controller with the same peak."""
         x, y = self._front(kind)
         log_Mst = math.log(Mst)
-        if not len(x) or not x[0] - EQUAL <= log_Mst <= x[-1] + EQUAL:
+        if not len(x) or not x[0] - EQUAL_PEAKS <= log_Mst <= x[-1] + EQUAL_PEAKS:
             return math.nan
         if len(x) == 1:
             return load / math.exp(y[0]) - 1
         behind = load / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1
-        if behind < NEAR:
+        if behind < NEAR_OPTIMUM:
             behind = load / self._search(kind).best(Mst)[0].value - 1
         return behind
 
     def _front(self, kind: str) -> np.ndarray:
         """Logarithms of bounds and of the least load errors."""
         if kind not in self.fronts:
-            bounds = COMPARED if self.M is None else (self.M,)
-            try:
+            bounds: list[float] = COMPARED if self.M is None else [self.M]
+            front: tuple[Optimum, ...] = ()
+            with suppress(NoOptimum):
                 front = trade_off(self.plant, kind, "load", bounds, self.tau_F if kind == "PID" else None)
-            except NoOptimum:
-                front = ()
             values = [each.value for each in front]
             self.fronts[kind] = np.log([bounds[len(bounds) - len(values) :], values])
         return self.fronts[kind]
@@ -371,7 +203,8 @@ class _Judge:
         rule = RULES[key]
         if rule.needs != "model":
             return True
-        return rule.within(subject_of(rule, self.plant, kind), kind, None)
+        model = subject_of(rule, self.plant, kind)
+        return isinstance(model, Model) and rule.within(model, kind, None)
 
     def _references(self) -> References | None:
         try:
@@ -380,13 +213,14 @@ class _Judge:
             return None
 
 
-def noise_gain(controller: Controller) -> float:
+def high_frequency_gain(controller: Controller) -> float:
     """|C| at high frequency: Kc tau_D/tau_F in ideal form, Kc without derivative action, 0 of an I controller."""
-    form: ParallelPid = controller.to_parallel()
+    form = controller.to_parallel()
     if form.Kd:
         return abs(form.Kd) / form.tau_F if form.tau_F else math.inf
     return abs(form.Kp)
 
 
 def _none(key: str, kind: str, published: float, refusal: str) -> Row:
-    return Row(key, kind, None, published, None, *[math.nan] * 7, False, refusal)
+    nan = math.nan
+    return Row(key, kind, None, published, None, nan, nan, nan, nan, nan, nan, nan, False, refusal)

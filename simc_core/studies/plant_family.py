@@ -87,16 +87,16 @@ def robustness(loop: Loop, change: float = 0.2, samples: int = SAMPLES, seed: in
 def changed(plant: Plant, change: dict[str, float]) -> Plant:
     """`plant` with k, theta, tau1 changed by these parts."""
     factor = {symbol: 1 + change.get(symbol, 0.0) for symbol in SYMBOLS}
-    times = {"k": plant.k * factor["k"], "theta": plant.theta * factor["theta"]}
+    k, theta = plant.k * factor["k"], plant.theta * factor["theta"]
     if plant.lags:
         slowest = max(range(len(plant.lags)), key=lambda i: abs(plant.lags[i]))
         lags = list(plant.lags)
         lags[slowest] *= factor["tau1"]
-        return replace(plant, **times, lags=tuple(lags))
+        return replace(plant, k=k, theta=theta, lags=tuple(lags))
     if plant.lag_pairs:
         (tau, zeta), *rest = sorted(plant.lag_pairs, reverse=True)
-        return replace(plant, **times, lag_pairs=((tau * factor["tau1"], zeta), *rest))
-    return replace(plant, **times)
+        return replace(plant, k=k, theta=theta, lag_pairs=((tau * factor["tau1"], zeta), *rest))
+    return replace(plant, k=k, theta=theta)
 
 
 def _has(plant: Plant, symbol: str) -> bool:

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.controllers.forms import Controller
@@ -38,9 +39,26 @@ METRICS = ("IAE_setpoint", "IAE_disturbance", "TV_setpoint", "TV_disturbance", "
 class Sweep:
     """n tunings of one plant. Margins and metrics are nan where the loop is not stable.
 
-    tau_c, stable, GM ... overshoot: (n,), as in Margins and Performance; overshoot of the set-point step.
-    y_setpoint, u_setpoint, y_disturbance, u_disturbance: (n, len(t)), of height 1, right-hand limits at jumps.
-    L: (n, len(omega)), complex.
+    Attributes
+    ----------
+    tau_c : np.ndarray, shape (n,)
+        Closed-loop time constants, in the user's time unit.
+    controllers : tuple of controllers, n of them
+        Their settings.
+    t, omega : np.ndarray, shape (m,), (p,)
+        Instants, in the user's time unit, and frequencies, in rad per time unit.
+    y_setpoint, u_setpoint, y_disturbance, u_disturbance : np.ndarray, shape (n, m)
+        Responses to set point and load of height 1, right-hand limits at jumps.
+    L : np.ndarray, shape (n, p), complex
+        Loop transfer functions.
+    stable : np.ndarray of bool, shape (n,)
+        Whether each loop is.
+    GM, GM_lower, PM_deg, delay_margin, Ms, Mt : np.ndarray, shape (n,)
+        As in Margins.
+    IAE_setpoint, IAE_disturbance, TV_setpoint, TV_disturbance : np.ndarray, shape (n,)
+        As in StepMetrics.
+    overshoot : np.ndarray, shape (n,)
+        Of the set-point step, as a fraction.
     """
 
     tau_c: np.ndarray
@@ -69,9 +87,9 @@ class Sweep:
 def sweep(
     plant: Plant,
     model: Model,
-    tau_c,
-    t,
-    omega,
+    tau_c: ArrayLike,
+    t: ArrayLike,
+    omega: ArrayLike,
     b: float = 1.0,
     filter_ratio: float = 0.0,
     disturbance_time: float = 0.0,
@@ -109,29 +127,41 @@ def sweep(
     ------
     InvalidParameter
         Where `simc` does, and where `simulate` does for one of the loops.
+
+    Examples
+    --------
+    GM = (pi/2) (tau_c + theta)/theta of a first-order model [SK03], here for tau_c = theta and 2 theta:
+
+    >>> from simc_core import FirstOrderDelay, Plant, sweep
+    >>> found = sweep(Plant(1, 1, (8,)), FirstOrderDelay(1, 1, 8), tau_c=[1, 2], t=[0, 1, 2], omega=[0.1, 1])
+    >>> found.GM.round(4).tolist(), found.y_setpoint.shape, found.L.shape
+    ([3.1416, 4.7124], (2, 3), (2, 2))
     """
-    tau_c, t, omega = _tau_c(tau_c), instants(t), at_frequencies(omega)
-    values = len(tau_c) * (4 * len(t) + 2 * len(omega))
+    speeds, times, at = _tau_c(tau_c), instants(t), at_frequencies(omega)
+    values = len(speeds) * (4 * len(times) + 2 * len(at))
     if values > MOST_VALUES:
         raise InvalidParameter(
             f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, got {values}"
         )
-    controllers = tuple(simc(model, each).with_filter(filter_ratio).with_weight(b) for each in tau_c.tolist())
+    controllers = tuple(simc(model, each).with_filter(filter_ratio).with_weight(b) for each in speeds.tolist())
     loops = [Loop(plant, controller) for controller in controllers]
     found = margins_many(loops)
     stable = [each.stable for each in found]
-    curves, metrics = _curves_and_metrics(plant, controllers, stable, t, disturbance_time, ramps)
-    G = plant.factored(1j * omega)
+    curves, metrics = _curves_and_metrics(plant, controllers, stable, times, disturbance_time, ramps)
+    G = plant.factored(1j * at)
     return Sweep(
-        tau_c,
-        controllers,
-        t,
-        omega,
-        *(curves[:, signal, source] for source in range(2) for signal in range(2)),
-        np.array([G * controller.factored(1j * omega) for controller in controllers]),
-        np.array(stable),
-        *(np.array([getattr(each, name) for each in found]) for name in MARGINS),
-        *metrics.T,
+        tau_c=speeds,
+        controllers=controllers,
+        t=times,
+        omega=at,
+        y_setpoint=curves[:, 0, 0],
+        u_setpoint=curves[:, 1, 0],
+        y_disturbance=curves[:, 0, 1],
+        u_disturbance=curves[:, 1, 1],
+        L=np.array([G * controller.factored(1j * at) for controller in controllers]),
+        stable=np.array(stable),
+        **{name: np.array([getattr(each, name) for each in found]) for name in MARGINS},
+        **dict(zip(METRICS, metrics.T, strict=True)),
     )
 
 
@@ -208,7 +238,7 @@ def _at(course: UnitResponses, t: np.ndarray, disturbance_time: float, ramps: tu
     return values
 
 
-def _tau_c(given) -> np.ndarray:
+def _tau_c(given: ArrayLike) -> np.ndarray:
     values = np.atleast_1d(np.asarray(given, dtype=float))
     if values.ndim != 1 or not 1 <= values.size <= MOST_TUNINGS:
         raise InvalidParameter(f"tau_c must be a list of 1 to {MOST_TUNINGS} times, got shape {values.shape}")

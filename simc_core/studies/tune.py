@@ -1,7 +1,7 @@
 """Any rule of the catalogue on any plant: the model, ultimate point or plant that the rule needs is made here."""
 
 from simc_core import checks
-from simc_core.controllers.forms import Controller, IController
+from simc_core.controllers.forms import IController, IdealPid, SeriesPid
 from simc_core.errors import InvalidParameter, OutOfDomain
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
@@ -13,7 +13,9 @@ from simc_core.sensitivity.ultimate import ultimate
 SECOND_ORDER = ("simc", "spectral")  # their PID needs a second lag
 
 
-def tune(key: str, subject: Model | Ultimate | Plant, kind: str = "PI", **knobs: float) -> Controller:
+def tune(
+    key: str, subject: Model | Ultimate | Plant, kind: str = "PI", **knobs: float | None
+) -> SeriesPid | IdealPid | IController:
     """Settings of a rule.
 
     Parameters
@@ -65,14 +67,15 @@ def rule_of(key: str) -> Rule:
     return RULES[key]
 
 
-def knob_of(rule: Rule, knobs: dict[str, float]) -> float | None:
+def knob_of(rule: Rule, knobs: dict[str, float | None]) -> float | None:
     """The rule's own parameter among the keywords, None if it is left to the rule."""
     for name in knobs:
         if name != rule.knob:
             known = f"only {rule.knob}" if rule.knob else "no parameter of its own"
             raise InvalidParameter(f"{rule.title} has {known}, got {name}")
-    value = knobs.get(rule.knob) if rule.knob else None
-    return None if value is None else checks.real(rule.knob, value)
+    if rule.knob is None or knobs.get(rule.knob) is None:
+        return None
+    return checks.real(rule.knob, knobs[rule.knob])
 
 
 def subject_of(rule: Rule, subject: Model | Ultimate | Plant, kind: str) -> Model | Ultimate | Plant:
@@ -100,7 +103,9 @@ def subject_of(rule: Rule, subject: Model | Ultimate | Plant, kind: str) -> Mode
     return half_rule(plant, 2 if kind == "PID" and rule.key in SECOND_ORDER else 1).model
 
 
-def _of_kind(controller: Controller, rule: Rule, kind: str) -> Controller:
+def _of_kind(
+    controller: SeriesPid | IdealPid | IController, rule: Rule, kind: str
+) -> SeriesPid | IdealPid | IController:
     """The controller, which must be of the kind asked for: of SIMC the model decides it."""
     found = "PI" if isinstance(controller, IController) or not controller.tau_D else "PID"
     if rule.key in SECOND_ORDER and kind != found:

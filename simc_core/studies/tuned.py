@@ -51,7 +51,7 @@ class Tuned:
         """The same model tuned at another tau_c."""
         return _closed(self.plant, {**self.choices, "tau_c": tau_c}, self.reduction)
 
-    def changed(self, **change) -> "Tuned":
+    def changed(self, **change: object) -> "Tuned":
         """The design with other choices. Raises SimcError."""
         return tuned(self.plant, **{**self.choices, **change})
 

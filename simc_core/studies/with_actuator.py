@@ -68,8 +68,8 @@ def as_built(loop: Loop, scenario: Scenario) -> AsBuilt:
     noisy = actuated(loop, actuation, inputs) if actuation.noise else course
     unprotected = None
     if actuation.limited:
-        unprotected = actuated(loop, replace(actuation, tracking_time=math.inf), inputs)
-        unprotected = on_grid(unprotected, inputs, scenario.points)
+        wound_up = actuated(loop, replace(actuation, tracking_time=math.inf), inputs)
+        unprotected = on_grid(wound_up, inputs, scenario.points)
     linear = _linear(loop, inputs, scenario.points)
     return AsBuilt(
         actuation,

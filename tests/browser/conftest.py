@@ -4,9 +4,11 @@ import shutil
 from collections.abc import Callable, Iterator
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
-from tests.browser.tools import ARGS, PATIENCE, WIDTHS, Server, idle, watch
+from tests.browser.tools import ARGS, PATIENCE, WIDTHS, Server, Tab, idle
+
+expect.set_options(timeout=1000 * PATIENCE)
 
 
 @pytest.fixture
@@ -25,7 +27,7 @@ def fresh_server() -> Iterator[Callable[[], str]]:
 
 @pytest.fixture(scope="session")
 def server() -> Iterator[str]:
-    """The address of the server that all tests share."""
+    """The address of the server that all tests of a worker share."""
     one = Server()
     yield one.url
     one.stop()
@@ -42,28 +44,48 @@ def chromium() -> Iterator[Browser]:
         browser.close()
 
 
+@pytest.fixture(scope="session")
+def idle_tabs(chromium) -> Iterator[list[Tab]]:
+    """Tabs that no test uses now. What a tab has loaded and compiled once it has: a page takes a third of the time."""
+    tabs: list[Tab] = []
+    yield tabs
+    for tab in tabs:
+        tab.close()
+
+
 @pytest.fixture
-def open_page(chromium) -> Iterator[Callable[..., Page]]:
-    """open_page(address, width=1280, theme="light", touch=False): a page in a context of its own, idle.
+def open_page(request, server, chromium, idle_tabs) -> Iterator[Callable[..., Page]]:
+    """A factory of pages, idle, each in a context that no other page has.
 
-    When the test ends, errors of the browser and requests to other hosts fail it.
+    Storage, cookies and permissions are empty; only the browser's cache may be warm. When the test ends, errors of the
+    browser and requests to other hosts fail it, and its tabs are left to the next one unless it failed.
     """
-    contexts: list[BrowserContext] = []
-    faults: list[str] = []
+    used: list[Tab] = []
+    failed_before = request.session.testsfailed
 
-    def start(address: str, width: int = 1280, theme: str = "light", touch: bool = False) -> Page:
-        context = chromium.new_context(
-            viewport={"width": width, "height": WIDTHS[width]}, color_scheme=theme, has_touch=touch
-        )
-        contexts.append(context)
-        page = context.new_page()
-        page.set_default_timeout(1000 * PATIENCE)
-        watch(page, faults)
+    def start(
+        address: str, width: int = 1280, theme: str = "light", touch: bool = False, locale: str = "en-US"
+    ) -> Page:
+        how = {"has_touch": touch, "locale": locale}
+        tab = next((tab for tab in idle_tabs if tab.how == how), None)
+        if tab is None:
+            tab = Tab(chromium, how)
+        else:
+            idle_tabs.remove(tab)
+        used.append(tab)
+        page = tab.page
+        page.set_viewport_size({"width": width, "height": WIDTHS[width]})
+        page.emulate_media(color_scheme=theme, reduced_motion="reduce")  # what moves while we wait is painted in vain
         page.goto(address)
         idle(page)
         return page
 
     yield start
-    for context in contexts:
-        context.close()
+    faults = [fault for tab in used for fault in tab.faults]
+    for tab in used:
+        if faults or request.session.testsfailed > failed_before:
+            tab.close()
+        else:
+            tab.clean(server)
+            idle_tabs.append(tab)
     assert not faults, "\n".join(faults)

@@ -19,6 +19,7 @@ from simc_core import Plant
 from tests.browser.tools import ROOT, Server, idle, watch
 
 NODES = ("a", "b")
+pytestmark = pytest.mark.xdist_group("nginx")  # they share the three processes, and the last one stops one of them
 PATIENCE = 30  # s
 
 

@@ -8,8 +8,8 @@ from playwright.sync_api import Page, expect
 
 from simc_core import Plant, margins
 from simc_core.cascade.design import simc_cascade
-from tests.browser.test_live import at_rest, live
-from tests.browser.tools import idle, picture
+from tests.browser.test_live import at_rest, frames, live
+from tests.browser.tools import both_themes, idle, picture
 
 PAIR_1 = "Ga=2exp(-2s)/(5s%2B1)&Gb=exp(-s)/((2s%2B1)(3s%2B1))"  # [PSB] pair 1
 PAIR_6 = "Ga=2exp(-2s)/(20s%2B1)&Gb=exp(-s)/(20s-1)&method=synthesis"  # an unstable inner block
@@ -46,22 +46,22 @@ def drag(page: Page, loop: str, start: float, end: float) -> set[str]:
     page.mouse.down()
     for part in np.linspace(start, end, 20):
         page.mouse.move(box["x"] + part * box["width"], y)
-        page.wait_for_timeout(20)
+        frames(page)
         seen.add(live(page).get_attribute("data-drawn"))
     return seen
 
 
 @pytest.mark.parametrize("width", [1280, 390])
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_pictures(server, open_page, width, theme):
-    page = opened(open_page, server, width=width, theme=theme)
+def test_pictures(server, open_page, width):
+    page = opened(open_page, server, width=width)
     if width == 1280:
         box = page.locator(".field.responses").bounding_box()
         assert box["y"] + box["height"] <= 900
     else:
         live(page).evaluate("element => element.scrollIntoView()")
         assert page.locator("figure:visible").count() == 1
-    picture(page, "cascade-live")
+    for _ in both_themes(page):
+        picture(page, "cascade-live")
 
 
 @pytest.mark.parametrize("loop", ["inner", "outer"])

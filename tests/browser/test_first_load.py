@@ -1,27 +1,33 @@
-"""What a first visit costs: bytes on the wire until the page is at rest, in a browser that has nothing yet."""
+"""The first visit to a fresh server by a browser that has nothing yet: what it costs on the wire, and that it works."""
 
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.tools import Wire, idle
+from tests.browser.tools import PATIENCE, WIDTHS, Wire, idle, watch
 
 GOALS = {"": 2.0, "tuning": 2.0, "cascade": 3.0, "plant": 3.0, "half_rule": 3.0, "accuracy": 2.0}  # MB
+LINK = "plant=2 exp(-s)/(10s%2B1)&order=1&tau_c=3&Ga=3/(10s%2B1)"
 
 
 @pytest.mark.parametrize(("place", "most"), GOALS.items())
-def test_a_first_visit_is_small(server, chromium, place, most):
-    context = chromium.new_context(viewport={"width": 1280, "height": 900})
-    page = context.new_page()
-    wire = Wire(page)
-    page.goto(f"{server}/{place}")
-    idle(page, settle=1.0)
-    context.close()
-    assert 0.5 < wire.bytes / 1e6 <= most  # half a megabyte is what Streamlit needs at the least: it was counted
-
-
-def test_the_first_visitor_of_a_fresh_server_finds_every_field_filled(fresh_server, open_page):
+def test_a_deep_link_may_be_the_first_request_of_a_fresh_server_and_is_small(fresh_server, chromium, place, most):
     """The first run is slow and another one overtakes it: what it had put into the fields must come all the same."""
-    page = open_page(f"{fresh_server()}/plant?plant=2/(5s%2B1)")
-    expect(page.get_by_label("Transfer function", exact=True)).to_have_value("2/(5 s + 1)")
-    page = open_page(f"{fresh_server()}/tuning?plant=2/(5s%2B1)")
-    expect(page.get_by_role("radio", name="PI", exact=True)).to_be_checked()
+    faults: list[str] = []
+    context = chromium.new_context(viewport={"width": 1280, "height": WIDTHS[1280]})
+    page = context.new_page()
+    page.set_default_timeout(1000 * PATIENCE)
+    watch(page, faults)
+    wire = Wire(page)
+    page.goto(f"{fresh_server()}/{place}?{LINK}")
+    idle(page, settle=1.0)
+    expect(page.locator(".st-key-line .katex").first).to_contain_text("10s")
+    expect(page.get_by_test_id("stSidebarNav")).to_contain_text("Half rule")
+    if place == "plant":
+        expect(page.get_by_label("Transfer function", exact=True)).to_have_value("2 exp(-s)/(10 s + 1)")
+    if place == "tuning":
+        expect(page.get_by_role("radio", name="PI", exact=True)).to_be_checked()
+    assert page.get_by_test_id("stException").count() == 0
+    assert "tau_c=3" in page.url
+    context.close()
+    assert not faults, "\n".join(faults)
+    assert 0.5 < wire.bytes / 1e6 <= most  # half a megabyte is what Streamlit needs at the least: it was counted

@@ -1,12 +1,12 @@
 """Typing and pasting numbers and plants in a real browser of three countries: every number is the one typed."""
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from urllib.parse import parse_qs, urlencode, urlsplit
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.tools import PATIENCE, WIDTHS, idle, watch
+from tests.browser.tools import idle
 
 LOCALES = ("de-DE", "en-US", "cs-CZ")
 PLANT = "2 exp(-3 s)/((20 s + 1) (4 s + 1))"
@@ -14,25 +14,15 @@ PRINTED = "                2\n  exp(-3*s) * -------\n              5 s + 1\n"  #
 
 
 @pytest.fixture(params=LOCALES)
-def local_page(request, chromium) -> Iterator[Page]:
-    """A page in a browser that is set to this country; its errors fail the test."""
-    faults: list[str] = []
-    context = chromium.new_context(
-        locale=request.param,
-        viewport={"width": 1280, "height": WIDTHS[1280]},
-        permissions=["clipboard-read", "clipboard-write"],
-    )
-    page = context.new_page()
-    page.set_default_timeout(1000 * PATIENCE)
-    watch(page, faults)
-    yield page
-    context.close()
-    assert not faults, "\n".join(faults)
+def opened(request, server, open_page) -> Callable[[str], Page]:
+    """opened(place): the example on this page in a browser that is set to this country."""
 
+    def start(place: str) -> Page:
+        page = open_page(f"{server}/{place}?" + urlencode({"plant": PLANT}), locale=request.param)
+        page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+        return page
 
-def opened(page: Page, server: str, place: str, **parameters: str) -> None:
-    page.goto(f"{server}/{place}?" + urlencode({"plant": PLANT, **parameters}))
-    idle(page)
+    return start
 
 
 def field(page: Page, label: str) -> Locator:
@@ -59,9 +49,8 @@ def address(page: Page) -> dict[str, str]:
     return {name: values[0] for name, values in parse_qs(urlsplit(page.url).query).items()}
 
 
-def test_numbers_typed_and_pasted_on_the_tuning_page(server, local_page):
-    page = local_page
-    opened(page, server, "tuning")
+def test_numbers_typed_and_pasted_on_the_tuning_page(opened):
+    page = opened("tuning")
     for how, text, meant in (
         (typed, "2,75", "2.75"),
         (typed, "11/5", "2.2"),
@@ -81,9 +70,8 @@ def test_numbers_typed_and_pasted_on_the_tuning_page(server, local_page):
     assert address(page) | {"tau_c": "0.8", "b": "0.6"} == address(page)
 
 
-def test_the_smallest_tau_c_for_an_Ms_is_typed_with_a_comma(server, local_page):
-    page = local_page
-    opened(page, server, "tuning")
+def test_the_smallest_tau_c_for_an_Ms_is_typed_with_a_comma(opened):
+    page = opened("tuning")
     typed(page, "Fastest tau_c with Ms up to", "1,5")
     with_comma = address(page)["tau_c"]
     typed(page, "Fastest tau_c with Ms up to", "1.5")
@@ -92,9 +80,8 @@ def test_the_smallest_tau_c_for_an_Ms_is_typed_with_a_comma(server, local_page):
     expect(page.get_by_text("can be read in two ways")).to_be_visible()
 
 
-def test_plants_typed_and_pasted(server, local_page):
-    page = local_page
-    opened(page, server, "plant")
+def test_plants_typed_and_pasted(opened):
+    page = opened("plant")
     for text, words in (
         ("2,5 e^{-0,75s}/(12 500s+1)", "gain 2.5, lag 12500, dead time 0.75"),
         (PRINTED, "gain 2, lag 5, dead time 3"),

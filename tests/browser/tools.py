@@ -6,10 +6,11 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.request import urlopen
 
-from playwright.sync_api import Page
+from playwright.sync_api import Browser, Page
 
 ROOT = Path(__file__).parents[2]
 PICTURES = Path(__file__).parent / "screenshots"
@@ -26,6 +27,15 @@ ARGS = [
     "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
 ]
 IDLE = "[data-testid=stApp][data-test-script-state=notRunning]"
+DRAWN = """() => {
+    const seen = what => [...document.querySelectorAll(what)].filter(element => element.checkVisibility());
+    return seen('[data-testid=stPlotlyChart]').every(figure => figure.querySelector('.main-svg'))
+        && !seen('[data-testid=stSkeleton], [data-stale=true]').length;
+}"""
+LIGHTNESS = "element => Number(getComputedStyle(element).backgroundColor.match(/\\d+/)[0])"  # its red, 0 to 255
+VIOLATIONS = """document.addEventListener('securitypolicyviolation', event => {
+    console.error('forbidden by the policy: ' + event.violatedDirective + ' ' + event.blockedURI);
+});"""
 # On a deep link Streamlit first looks for itself below the page's own path, and finds itself one level up.
 PROBE = re.compile(r"/\w+/_stcore/(health|host-config)$")
 PATIENCE = 30  # seconds for a server to start on a busy machine
@@ -90,13 +100,36 @@ def idle(page: Page, settle: float = 0.25) -> None:
         quiet = quiet + 0.05 if page.query_selector(IDLE) else 0.0
 
 
+def drawn(page: Page) -> None:
+    """Wait until every figure in sight is there and nothing of a former run is left."""
+    wait_until(page, lambda: page.evaluate(DRAWN), "the page is drawn")
+
+
+def wait_until(page: Page, holds: Callable[[], bool], what: str) -> None:
+    """Ask again and again, for a patient while, until it holds."""
+    end = time.monotonic() + PATIENCE
+    while not holds():
+        assert time.monotonic() < end, f"waited {PATIENCE} s in vain until {what}"
+        page.wait_for_timeout(20)
+
+
+def both_themes(page: Page) -> Iterator[str]:
+    """Light, then dark, on the same page: the browser says that its theme has changed, and the page follows."""
+    for theme in THEMES:
+        page.emulate_media(color_scheme=theme)
+        ground = page.locator("[data-testid=stApp]")
+        wait_until(page, lambda: (ground.evaluate(LIGHTNESS) < 128) == (theme == "dark"), f"the page is {theme}")  # noqa: B023
+        idle(page)
+        yield theme
+
+
 def picture(page: Page, name: str) -> Path:
     """Store a screenshot as screenshots/NAME-WIDTH-THEME.png and give its path."""
     dark = page.evaluate("matchMedia('(prefers-color-scheme: dark)').matches")
     PICTURES.mkdir(exist_ok=True)
     path = PICTURES / f"{name}-{page.viewport_size['width']}-{THEMES[dark]}.png"
-    page.wait_for_timeout(400)  # figures fade in
-    page.screenshot(path=path)
+    drawn(page)
+    page.screenshot(path=path, animations="disabled")
     return path
 
 
@@ -117,6 +150,8 @@ def nyquist_scale(page: Page) -> float:
 
 
 def watch(page: Page, faults: list[str]) -> None:
+    """Enter among the faults: errors of the console, exceptions, what the policy forbids, requests to other hosts."""
+
     def console(message) -> None:
         where = message.location.get("url", "")
         if message.type == "error" and not PROBE.search(where):
@@ -126,9 +161,33 @@ def watch(page: Page, faults: list[str]) -> None:
         if not asked.url.startswith(("http://127.0.0.1:", "ws://127.0.0.1:", "data:", "blob:", "about:")):
             faults.append(f"request to another host: {asked.url}")
 
+    page.add_init_script(VIOLATIONS)
     page.on("console", console)
     page.on("pageerror", lambda error: faults.append(f"exception: {error}"))
     page.on("request", request)
+
+
+class Tab:
+    """A page in a context of its own, watched, for one test after the other."""
+
+    def __init__(self, browser: Browser, how: dict):
+        self.how = how  # settings of the context
+        self.page = browser.new_context(**how).new_page()
+        self.page.set_default_timeout(1000 * PATIENCE)
+        self.faults: list[str] = []
+        watch(self.page, self.faults)
+
+    def clean(self, server: str) -> None:
+        """Leave the app, that it writes no more, and forget what a test left: storage, cookies, permissions, mouse."""
+        self.page.goto(f"{server}/_stcore/health")
+        self.page.evaluate("localStorage.clear(); sessionStorage.clear()")
+        self.page.context.clear_cookies()
+        self.page.context.clear_permissions()
+        self.page.mouse.move(0, 0)
+        self.faults.clear()
+
+    def close(self) -> None:
+        self.page.context.close()
 
 
 class Wire:

@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 
 from pages.common.take_home.written import LANGUAGES
@@ -76,6 +77,33 @@ def test_all_kinds_of_plants_are_shown_or_refused_in_words(plant, key):
     app = run_page("take_home", plant=plant, unit="min", box=key, sampling="0.1")
     assert not app.exception
     assert app.dataframe or app.error
+
+
+@pytest.mark.parametrize("key", [key for key, box in BOXES.items() if box.form != "parallel"][::9])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_pure_integral_action_becomes_a_PI_where_a_box_needs_one(key, sign):
+    """e^{-s}: K_I = 1/2. Of K_I (s/3 + 1) e^{-s}/s, |S| on a grid is the Ms that is told; its load error is 1/K_I."""
+    app = run_page("take_home", plant=f"{sign} exp(-s)", unit="min", box=key)
+    assert "Pure integral action" in app.error[0].value
+    s = 1j * np.linspace(1e-3, 30, 200_000)
+    peak = np.max(1 / np.abs(1 + 0.5 * (s / 3 + 1) * np.exp(-s) / s))
+    told = re.search(r"M_s\$ = ([0-9.]+) instead of 1.59", texts(app))
+    assert float(told[1]) == pytest.approx(peak, rel=1e-3)
+    assert peak < 1.59
+    for name in re.search("take it as it is: (.*); and more", texts(app))[1].split("; "):
+        assert name in {box.title for box in BOXES.values() if box.form == "parallel"}
+    app.button(key="take_pi").click().run()
+    assert not app.error
+    assert app.dataframe
+    form, Kc, tau_I, *_ = address(app)["own"].split("~")
+    assert (form, float(Kc), float(tau_I)) == ("ideal", pytest.approx(sign / 6), pytest.approx(1 / 3))
+
+
+def test_a_PID_that_no_series_box_has_is_sent_to_one_that_has_it():
+    app = run_page("take_home", plant="exp(-s)/(4s^2+0.8s+1)", box="deltav_series")
+    assert "has no numbers for this controller" in app.error[0].value
+    assert "Boxes that take it as it is: " in texts(app)
+    assert not [each for each in app.button if each.key == "take_pi"]
 
 
 def test_a_negative_gain_makes_a_direct_acting_box():

@@ -150,7 +150,7 @@ def test_the_same_design_is_not_pinned_twice():
 
 def test_derivative_action_without_a_filter_is_called_by_its_name():
     assert "derivative has no filter" in texts(tuned(order="2"))
-    assert "Noise gain $K_d$/$\\tau_F$ = 7.5" in texts(tuned(order="2", filter="0.1"))
+    assert "High-frequency gain $K_d$/$\\tau_F$ = 7.5" in texts(tuned(order="2", filter="0.1"))
 
 
 def test_the_effective_dead_time_is_called_by_its_name():

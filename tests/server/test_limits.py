@@ -33,7 +33,7 @@ def test_a_message_of_more_than_a_megabyte_ends_the_session(url, size, code):
     assert asyncio.run(asyncio.wait_for(send(), 30)) == code
 
 
-@pytest.mark.parametrize("place", ["", "plant", "half_rule", "tuning", "cascade"])
+@pytest.mark.parametrize("place", ["", "plant", "from_data", "half_rule", "tuning", "cascade"])
 def test_every_page_runs_whatever_its_link_says(url, place):
     async def visit() -> None:
         client = Client(url)

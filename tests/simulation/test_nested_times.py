@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from simc_core import CascadeLoop, Loop, NestedLoops, ParallelPid, Plant, Scenario, SeriesPid, simulate
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.several_delays.network import network
 from simc_core.simulation.several_delays.stepper import NestedStepper, steps_of
 from tests.oracles.pairs import PAIRS

@@ -169,8 +169,9 @@ def _box(x: float, y: float, width: float, box: Box) -> str:
         f'<text class="name" x="{middle:g}" y="{top + 15:g}" text-anchor="middle">{box.name}</text>',
     ]
     line = top + 15 + LINE
+    kind = ' class="setting"' if box.kind in ("outer", "inner") else ""
     for text in box.top:
-        parts.append(f'<text x="{middle:g}" y="{line + 1:g}" text-anchor="middle">{text}</text>')
+        parts.append(f'<text{kind} x="{middle:g}" y="{line + 1:g}" text-anchor="middle">{text}</text>')
         line += LINE
     if box.bottom:
         stroke = line - LINE + 6

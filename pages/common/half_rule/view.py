@@ -34,17 +34,18 @@ VERDICTS = {
 
 def choices() -> None:
     """Order, sampling period, set of rules."""
-    order, h, rules = st.columns([3, 2, 4], vertical_alignment="bottom")
-    order.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
+    row = st.container(horizontal=True, vertical_alignment="bottom", gap="medium")
+    row.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
     design_number(
         "h",
         "Sampling allowed for in θ",
         quantity="time",
-        place=h,
+        place=row,
         under=st.container(),
+        width=170,
         help="Sampling period of a digital controller; half of it counts as dead time. 0: continuous.",
     )
-    rules_choice(rules)
+    rules_choice(row)
 
 
 def story(reduction: Reduction) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
 from pages.common.session.home import Home
+from pages.common.session.record import Chosen, Origin
 from pages.common.session.sheet import Sheet, one_of, ratio
 from simc_core import BOXES, Actuation, Plant, Scenario, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
@@ -196,6 +197,8 @@ class Design:
     own: my settings, None until there are any.   now: what is in the plant now, the baseline; None where not told.
     pins: tunings and settings set aside to compare with the present one.
     box: what the settings are typed into, a key of BOXES, "" where not told.   home: how they are taken there.
+    record: what is chosen of the record on the page From data.
+    origin: of a plant that was identified; None for one that came otherwise, or has changed since.
     """
 
     plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
@@ -211,6 +214,8 @@ class Design:
     facts: StepFacts | None = None
     excitation: Excitation = field(default_factory=Excitation)
     box: str = ""
+    record: Chosen = field(default_factory=Chosen)
+    origin: Origin | None = None
     home: Home = field(default_factory=Home)
 
     def __post_init__(self):
@@ -221,11 +226,13 @@ class Design:
             raise InvalidParameter("own must be given where the controller is my settings, got nothing")
         object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
         object.__setattr__(self, "facts", of_plant(self.facts, self.plant))
+        if self.origin is not None and self.origin.plant != self.plant:
+            object.__setattr__(self, "origin", None)
 
 
 # Where the field of each name lies, "" for the design itself. Links and widgets know fields by these names.
 PLACES: dict[str, tuple[str, str]] = {
-    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box")},
+    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box", "origin")},
     "controller": ("", "source"),
     **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed")},
     **{name: ("sheet", name) for name in ("tag", "note")},
@@ -244,6 +251,7 @@ PLACES: dict[str, tuple[str, str]] = {
     "b_outer": ("cascade", "b"),
     "filter_outer": ("cascade", "filter_outer"),
     **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
+    **{name: ("record", name) for name in ("example", "structure", "begin", "end", "bad")},
     **{name: ("home", name) for name in ("rounding", "language", "exported")},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
@@ -296,6 +304,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
         sheet=replace(design.sheet, time_unit=unit),
         plant=plant,
         facts=facts,
+        origin=None if design.origin is None else design.origin.rescaled(plant, time),
         tuning=_in_time(design.tuning, time),
         own=None if design.own is None else design.own.rescaled(time),
         now=None if design.now is None else design.now.rescaled(time),

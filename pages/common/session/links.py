@@ -4,6 +4,8 @@
     facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
     pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
+    example, structure, begin, end, bad              what is chosen of a record on the page From data
+    origin                                           of a plant that was identified there
     box, rounding, language, exported                what the settings are typed into, or written as
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
@@ -20,6 +22,7 @@ from functools import cache
 from urllib.parse import quote, urlencode
 
 from pages.common.session.design import PLACES, Design, Tuning, get, put
+from pages.common.session.record import bad_of, bad_text, origin_of, origin_text
 from simc_core import Plant, parse_plant
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
@@ -34,7 +37,7 @@ FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "
 TEXTS = (
     *("rules", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
-    *("method", "inner", "outer", "filter_outer", "law"),
+    *("method", "inner", "outer", "filter_outer", "law", "example", "structure"),
     *("rounding", "language", "exported"),
 )
 PLANTS = ("plant", "Ga", "Gb")
@@ -114,7 +117,7 @@ def _changed(design: Design, name: str, text: str) -> Design:
         raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
     if name not in PLACES:
         raise SimcError("no parameter has this name")
-    return put(design, name, _read(name, text))
+    return put(design, name, origin_of(text, design.plant) if name == "origin" else _read(name, text))
 
 
 def _text(name: str, value) -> str:
@@ -126,6 +129,10 @@ def _text(name: str, value) -> str:
         return settings_text(value)
     if name in FACTS:
         return facts_text(value)
+    if name == "origin":
+        return origin_text(value)
+    if name == "bad":
+        return bad_text(value)
     return plain(value) if name in PLANTS else number_text(value)
 
 
@@ -140,6 +147,8 @@ def _read(name: str, text: str):
         return settings_of(text)
     if name in FACTS:
         return facts_of(text)
+    if name == "bad":
+        return bad_of(text)
     try:
         return float(text)
     except ValueError:

@@ -205,6 +205,16 @@ def remember(name: str, thing: Any) -> None:
     st.session_state[f"memory_{name}"] = thing
 
 
+def lasting(name: str, start: Callable[[], Any]) -> Any:
+    """As `memory`, for what belongs to this session and to no loop: another loop does not end it."""
+    return st.session_state.setdefault(f"lasting_{name}", start())
+
+
+def make_last(name: str, thing: Any) -> None:
+    """Replace what `lasting(name)` gives."""
+    st.session_state[f"lasting_{name}"] = thing
+
+
 def widget(key: str, default: Any = None) -> Any:
     """What the widget of this key holds now, for use in its callback."""
     return st.session_state.get(key, default)

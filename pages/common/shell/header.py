@@ -6,6 +6,7 @@ import streamlit as st
 
 from pages.common.parts.copyable import copyable
 from pages.common.parts.foreign_text import exact, told
+from pages.common.parts.units import time_text
 from pages.common.session import project, state
 from pages.common.session.design import Design
 from pages.common.shell.loops_menu import loops_menu
@@ -16,7 +17,7 @@ from simc_core.plants.plant import Plant
 
 GROUPS = {
     "Start": {"home": "Home"},
-    "Model": {"plant": "Plant", "half_rule": "Half rule"},
+    "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
     "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
     "Use": {"take_home": "Take home"},
     "Learn": {"accuracy": "Accuracy"},
@@ -46,7 +47,8 @@ def show(place: str) -> Design:
             _block("G_b", design.cascade.secondary)
         else:
             _block("G", design.plant)
-            st.caption(f"{design.plant.kind}, $\\theta$ = {design.plant.theta:g}", width="content")
+            theta = time_text(design.plant.theta, design.sheet)
+            st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content")
         if place in CHAIN:
             chain(place)
     _notices()
@@ -91,7 +93,7 @@ def _take_along() -> None:
     copyable(state.address(), "address_text")
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
-    upload = st.file_uploader("Open project", type="json", key="project_file")
+    upload = st.file_uploader("Open project", type="json", key="project_file", max_upload_size=1)
     if upload is not None:
         _open(upload)
 

@@ -1,15 +1,18 @@
 """ABB drives and Infi 90, Schneider."""
 
+from functools import partial
+
 from simc_core.implementation.boxes.box import D_ON_PV, ON_E, Box, Field
 
-_SCHNEIDER = {
-    "maker": "Schneider",
-    "source": "description of PIDFF and PI_B, its formulas are pictures",
-    "verified": "maker",
-    "filter": "ratio",
-    "N": 10.0,
-    "structures": D_ON_PV,
-}
+_SCHNEIDER = partial(
+    Box,
+    maker="Schneider",
+    source="description of PIDFF and PI_B, its formulas are pictures",
+    verified="maker",
+    filter="ratio",
+    N=10.0,
+    structures=D_ON_PV,
+)
 _KD = Field("kd", "N", "", 1e-3)
 
 BOXES = (
@@ -48,22 +51,20 @@ BOXES = (
         unread=("where the derivative acts",),
         notes=("K multiplies KP, KI and KD", "FC156 has a lag KA in the derivative, not in this law"),
     ),
-    Box(
+    _SCHNEIDER(
         "schneider_pidff",
         title="PIDFF, PI_B, mixed",
         form="ideal",
         fields=(Field("kp", "gain"), Field("ti", "Ti", "s", off=0.0), Field("td", "Td", "s"), _KD),
         unread=("lag of the derivative, taken as td/kd", "where the derivative acts"),
         notes=("kp in units of output and PV; ti = 0 is the absolute form, without integral action",),
-        **_SCHNEIDER,
     ),
-    Box(
+    _SCHNEIDER(
         "schneider_pidff_parallel",
         title="PIDFF, parallel",
         form="parallel",
         fields=(Field("kp", "gain"), Field("ti", "1/Ki", "%/% s", off=0.0), Field("td", "Kd", "%/% s"), _KD),
         unread=("lag of the derivative, taken as td/kd", "where the derivative acts"),
         notes=("ti and td are for a range of the output over a range of PV, whatever kp is",),
-        **_SCHNEIDER,
     ),
 )

@@ -19,7 +19,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-Structures = Mapping[str, tuple[float, float]]  # name -> b, c; the first is the box's own choice
+Structures = dict[str, tuple[float, float]]  # name -> b, c; the first is the box's own choice
 
 STRUCTURE = "structure"
 PV_FILTER = "PV filter"
@@ -62,7 +62,7 @@ class Field:
 class Box:
     """A controller that one can buy or download.
 
-    Parameters
+    Attributes
     ----------
     key, maker, title : str
         Name in BOXES, who makes it, its name on a page.
@@ -100,11 +100,17 @@ class Box:
     fields: tuple[Field, ...]
     filter: str = "none"
     N: float | None = None
-    structures: Structures = field(default_factory=dict)
+    structures: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     sign: int = 0
     actions: tuple[str, str] = ("reverse", "direct")
     unread: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+
+    @property
+    def own_N(self) -> float:
+        """N of a box whose filter is a ratio."""
+        assert self.N is not None, self.key  # each of them has one
+        return self.N
 
     def field_of(self, *quantities: str) -> Field | None:
         """The field of one of these quantities, None if the box has none."""

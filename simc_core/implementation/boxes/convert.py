@@ -6,31 +6,24 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from simc_core import checks
-from simc_core.controllers.forms import Controller, ParallelPid, SeriesPid
+from simc_core.controllers.forms import Controller
 from simc_core.errors import BoxError, InvalidParameter
-from simc_core.implementation.boxes.box import PV_FILTER, STRUCTURE, Box, Field
+from simc_core.implementation.boxes.box import PV_FILTER, STRUCTURE, Box
 from simc_core.implementation.boxes.catalogue import BOXES
-from simc_core.implementation.boxes.filters import (
-    DerivativeFiltered,
-    derivative_filtered,
-    fixed_ratio_filter,
-    whole_filtered,
-)
-from simc_core.implementation.boxes.units import Spans, law_quantity, on_the_safe_side, read, typed
+from simc_core.implementation.boxes.fields import carries_gain, check, numbers, off_value, with_sign, with_structure
+from simc_core.implementation.boxes.laws import LAWS, Quantities
+from simc_core.implementation.boxes.units import Spans, law_quantity, read
 
 SECONDS = {"s": 1, "min": 60}
-SAME = 1e-12  # relative; what differs by less is the same number
 REQUIRED = ("gain", "PB", "Ti", "1/Ti", "Ki", "1/Ki")
-NEVER_ZERO = ("PB", "Ti", "N", "1/N", "factor")  # but where 0 is off
 RATIOS = 1e-3, 1e6  # of N
-Quantities = dict[str, float]  # of the law, in seconds and in units of output and PV, all gains positive
 
 
 @dataclass(frozen=True, slots=True)
 class Typed:
     """What is typed into a box, and what that makes.
 
-    Parameters
+    Attributes
     ----------
     values : mapping of str to float or str
         Numbers by the names of the box's fields; "structure" for its set-point structure, "PV filter" in seconds for a
@@ -104,12 +97,12 @@ def to_box(
     if N is not None and box.filter != "ratio":
         raise BoxError(f"{box.title} has no ratio N of derivative time to filter time to choose, got N = {N}", "N", N)
     N = None if N is None else checks.real("N", N, *RATIOS)
-    law, pv_filter, warnings = _LAWS[box.form].forward(positive, box, N)
+    law, pv_filter, warnings = LAWS[box.form].forward(positive, box, N)
     action = "reverse" if sign > 0 else "direct"
-    values = _numbers(box, law, spans, rounded)
+    plain = numbers(box, law, spans, rounded)
     if box.sign * sign < 0:
-        values = {name: _with_sign(box, name, value) for name, value in values.items()}
-    values, more = _with_structure(box, values, law)
+        plain = {name: with_sign(box, name, number) for name, number in plain.items()}
+    values, more = with_structure(box, plain, law)
     if pv_filter:
         values[PV_FILTER] = pv_filter
         warnings.append(
@@ -152,6 +145,15 @@ def from_box(
     ------
     BoxError
         A field is missing, unknown, or beyond its range.
+
+    Examples
+    --------
+    A proportional band of 50 % and one minute per repeat are Kc = 2 and tau_I = 60 s:
+
+    >>> from simc_core import from_box
+    >>> pid = from_box("honeywell_udc", {"PB": 50.0, "RSET": 1.0})
+    >>> pid.Kc, pid.tau_I
+    (2.0, 60.0)
     """
     box, spans, seconds = _box(key), _spans(pv_span, out_span), _seconds(time_unit)
     if action not in ("reverse", "direct"):
@@ -167,27 +169,26 @@ def from_box(
             if field.quantity in REQUIRED:
                 raise BoxError(f"{field.name} of {box.title} must be given", field.name)
             continue
-        number = values[field.name]
-        number = checks.real(field.name, number, -math.inf, math.inf)
-        if box.sign and _carries_gain(field) and number:
+        given = number = checks.real(field.name, values[field.name])
+        if box.sign and carries_gain(field) and number:
             number *= box.sign * sign
             if number < 0:
                 raise BoxError(
                     f"{field.name} of {box.title} must have the sign of a {action} acting controller, "
                     f"got {values[field.name]}",
                     field.name,
-                    float(values[field.name]),
-                    -float(values[field.name]),
+                    given,
+                    -given,
                 )
-        _check(box, field, number)
-        law[law_quantity(field)] = _off(field) if number == field.off else read(field, number, spans)
+        check(box, field, number)
+        law[law_quantity(field)] = off_value(field) if number == field.off else read(field, number, spans)
     structure = values.get(STRUCTURE, next(iter(box.structures), None))
     if box.structures:
-        if structure not in box.structures:
+        if not isinstance(structure, str) or structure not in box.structures:
             raise BoxError(f"{STRUCTURE} must be one of {'; '.join(box.structures)}, got {structure!r}", STRUCTURE)
         law["b"], law["c"] = box.structures[structure]
     pv_filter = checks.optional_time(PV_FILTER, values.get(PV_FILTER, 0.0))
-    found = _LAWS[box.form].back(law, box)
+    found = LAWS[box.form].back(law, box)
     if pv_filter and found.tau_F:
         raise BoxError(
             f"{PV_FILTER} must be 0 beside the filter of {box.title} itself, got {pv_filter:g}: "
@@ -200,246 +201,10 @@ def from_box(
     return found.rescaled(Fraction(1, seconds), sign)
 
 
-class _IdealOrParallel:
-    """Kp + Ki/s + Kd s/(Tf s + 1), by its times or by its gains."""
-
-    def forward(self, design: Controller, box: Box, N: float | None) -> tuple[Quantities, float, list[str]]:
-        """Quantities of the law, time of a PV filter, warnings."""
-        whole, warnings = design.to_parallel(), []
-        if box.form == "ideal" or (box.filter in ("ratio", "fixed") and whole.Kd):
-            design.to_ideal()  # raises FormError
-        plain, tau_F = replace(whole, tau_F=0.0), whole.tau_F
-        if box.filter == "none" or not whole.Kd:
-            own, pv_filter = derivative_filtered(plain), tau_F
-        elif box.filter == "time":
-            own, pv_filter = derivative_filtered(whole), 0.0
-            if own is None:
-                own, pv_filter = derivative_filtered(plain), tau_F
-        else:
-            own, pv_filter = self._with_ratio(whole, box, N, warnings), 0.0
-        law = {"gain": own.Kp, "Ki": own.Ki, "Kd": own.Kd, "Tf": own.Tf, "b": own.b, "c": own.c, "factor": 1.0}
-        if own.Kp:
-            law |= {"Ti": own.Kp / own.Ki if own.Ki else math.inf, "Td": own.Kd / own.Kp}
-        if box.N:
-            law["N"] = own.Kd / own.Kp / own.Tf if own.Tf else box.N
-        return law, pv_filter, warnings
-
-    def _with_ratio(self, whole: ParallelPid, box: Box, N: float | None, warnings: list[str]) -> DerivativeFiltered:
-        """The design behind the filter that the box can have, that of the design if there is a choice."""
-        if box.filter == "ratio" and N is None and whole.tau_F:
-            own = derivative_filtered(whole)
-            if own is not None and own.Kd:
-                N = _within(box, own.Kd / own.Kp / own.Tf)
-                if N is None:
-                    return own
-            else:
-                N = _smallest(box)
-        N = N or box.N
-        tau_F = fixed_ratio_filter(whole, N)
-        if tau_F is None:
-            needed = 4 * whole.Kd * whole.Ki / whole.Kp**2 - 1
-            raise BoxError(f"N must be >= 4 tau_D/tau_I - 1 = {needed:g} in {box.title}, got {N:g}", "N", N, needed)
-        if abs(tau_F - whole.tau_F) > SAME * tau_F:
-            warnings.append(
-                f"the filter of the box, N = {N:g}, makes tau_F = {tau_F:g} s, the design has {whole.tau_F:g} s"
-            )
-        return derivative_filtered(replace(whole, tau_F=tau_F))
-
-    def back(self, law: Quantities, box: Box) -> Controller:
-        """The controller that quantities of the law make."""
-        factor, Kp = law.get("factor", 1.0), law["gain"]
-        Ki = law["Ki"] if "Ki" in law else Kp / law.get("Ti", math.inf)
-        Kd = law["Kd"] if "Kd" in law else Kp * law.get("Td", 0.0)
-        Tf = law.get("Tf", 0.0)
-        if box.filter in ("ratio", "fixed") and Kd:
-            if not Kp:
-                raise BoxError(f"{box.title} filters D by a ratio to P, which must not be 0 then, got 0", "", 0.0)
-            Tf = Kd / Kp / law.get("N", box.N)
-        own = DerivativeFiltered(factor * Kp, factor * Ki, factor * Kd, Tf, law.get("b", 1.0), law.get("c", 0.0))
-        whole = whole_filtered(own)
-        return whole.to_ideal() if box.form == "ideal" else whole
-
-
-class _Series:
-    """Kc (1 + 1/(Ti s)) (Td s + 1)/(Tf s + 1), Tf = Td/N."""
-
-    def forward(self, design: Controller, box: Box, N: float | None) -> tuple[Quantities, float, list[str]]:
-        """Quantities of the law, time of a PV filter, warnings."""
-        series, warnings = design.to_series(), []
-        tau_D, tau_F, pv_filter = series.tau_D, series.tau_F, 0.0
-        if box.filter == "none" or not tau_D:
-            ratio, pv_filter = box.N, tau_F
-        else:
-            ratio = self.ratio(series, tau_F) if tau_F else box.N
-            chosen = box.N if box.filter == "fixed" else N or _within(box, ratio) or ratio
-            made = self.filter_time(series.tau_I, tau_D, chosen)
-            if abs(made - tau_F) > SAME * made:
-                warnings.append(
-                    f"the filter of the box, N = {chosen:g}, makes tau_F = {made:g} s, the design has {tau_F:g} s"
-                )
-            ratio = chosen
-        law = {"gain": series.Kc, "Ti": series.tau_I, "Td": tau_D, "b": series.b, "c": series.c}
-        return law | ({"N": ratio} if ratio else {}), pv_filter, warnings
-
-    def ratio(self, series: SeriesPid, tau_F: float) -> float:
-        """N that makes tau_F."""
-        return series.tau_D / tau_F
-
-    def filter_time(self, Ti: float, Td: float, N: float) -> float:
-        """tau_F that N makes."""
-        return Td / N
-
-    def back(self, law: Quantities, box: Box) -> SeriesPid:
-        """The controller that quantities of the law make."""
-        Ti, Td = law.get("Ti", math.inf), law.get("Td", 0.0)
-        tau_F = self.filter_time(Ti, Td, law.get("N", box.N)) if Td and box.filter != "none" else 0.0
-        return SeriesPid(law["gain"], Ti, Td, tau_F, *self.weights(law, Ti, Td))
-
-    def weights(self, law: Quantities, Ti: float, Td: float) -> tuple[float, float]:
-        """b and c."""
-        return law.get("b", 1.0), law.get("c", 0.0)
-
-
-class _Interacting(_Series):
-    """The same with Tf = 1/(N (1/Ti + 1/Td)), of PV only: u = Kc (1 + 1/(Ti s)) [r - (Td s + 1) PV]."""
-
-    def ratio(self, series: SeriesPid, tau_F: float) -> float:
-        return 1 / tau_F / (1 / series.tau_I + 1 / series.tau_D)
-
-    def filter_time(self, Ti: float, Td: float, N: float) -> float:
-        return 1 / N / (1 / Ti + 1 / Td)
-
-    def weights(self, law: Quantities, Ti: float, Td: float) -> tuple[float, float]:
-        return 1 / (1 + Td / Ti), 0.0
-
-
-_LAWS = {
-    "ideal": _IdealOrParallel(),
-    "parallel": _IdealOrParallel(),
-    "series": _Series(),
-    "interacting": _Interacting(),
-}
-
-
-def _numbers(box: Box, law: Quantities, spans: Spans, round_off: bool) -> dict[str, float | str]:
-    """Typed numbers of the fields. The gain first: gains of I and D are for the gain that is typed."""
-    values: dict[str, float | str] = {}
-    for field in box.fields:
-        name = law_quantity(field)
-        if name in ("b", "c"):
-            continue
-        number = field.off if law[name] == _off(field) and field.off is not None else typed(field, law[name], spans)
-        if round_off and number != field.off:
-            number = _nearest_off(field, on_the_safe_side(field, number))
-            if name == "gain" and law[name] and not number:
-                raise BoxError(
-                    f"{field.name} of {box.title} must be >= {field.step:g}, got {typed(field, law[name], spans):g}",
-                    field.name,
-                    0.0,
-                    field.step,
-                )
-        _check(box, field, number)
-        if name == "gain" and law[name]:
-            change = read(field, number, spans) / law[name]
-            law = law | {gain: law[gain] * change for gain in ("gain", "Ki", "Kd") if gain in law}
-        values[field.name] = number
-    return values
-
-
-def _nearest_off(field: Field, number: float) -> float:
-    """Off, where that is nearer than the lowest number, for derivative action."""
-    if field.quantity == "Td" and field.off == 0 and number < field.low:
-        return 0.0 if number < field.low / 2 else field.low
-    return number
-
-
-def _with_structure(box: Box, values: dict, law: Quantities) -> tuple[dict, list[str]]:
-    """Weights as numbers or as the nearest structure; a warning where the set-point response changes."""
-    b, c = law["b"], law["c"] if law.get("Kd", law.get("Td")) else None
-    if box.structures:
-
-        def distance(name: str) -> float:
-            have = box.structures[name]
-            return abs(have[0] - b) + (abs(have[1] - c) if c is not None else 0.0)
-
-        nearest = min(box.structures, key=distance)
-        values = values | {STRUCTURE: nearest}
-        b_box, c_box = box.structures[nearest]
-    else:
-        b_box, c_box = 1.0, 0.0
-    for field in box.fields:
-        name = law_quantity(field)
-        if name in ("b", "c"):
-            wanted = law[name] if name == "b" or c is not None else 0.0
-            number = min(max(typed(field, wanted, Spans(1.0, 1.0)), field.low), field.high)
-            values = values | {field.name: number}
-            b_box, c_box = (read(field, number, Spans(1.0, 1.0)), c_box) if name == "b" else (b_box, number)
-    far = abs(b_box - max(b, 0.0)) > SAME or (c is not None and abs(c_box - max(c, 0.0)) > SAME)
-    if box.form == "interacting" or not far:
-        return values, []
-    return values, [
-        f"the set-point weights are b = {b_box:g}, c = {c_box:g}: the margins stay, the set-point response not"
-    ]
-
-
 def _of_the_box(box: Box) -> list[str]:
     """What one should know of a box whatever is typed."""
     read_in = [] if box.verified == "maker" else [f"read in a text of a third party ({box.source}): check your manual"]
     return [*read_in, *(f"not read in any text, check your manual: {what}" for what in box.unread), *box.notes]
-
-
-def _within(box: Box, N: float) -> float | None:
-    """None if N can be typed, else the nearest that can."""
-    field = box.field_of("N", "1/N")
-    if field is None:
-        return None
-    number = N if field.quantity == "N" else 1 / N
-    nearest = min(max(number, field.low), field.high)
-    if abs(nearest - number) <= SAME * number:
-        return None
-    return nearest if field.quantity == "N" else 1 / nearest
-
-
-def _smallest(box: Box) -> float:
-    """The smallest N that can be typed: the most filtering."""
-    field = box.field_of("N", "1/N")
-    return (field.low if field.quantity == "N" else 1 / field.high) or box.N
-
-
-def _check(box: Box, field: Field, number: float) -> None:
-    """Raises BoxError where the box does not take `number`."""
-    if number == field.off:
-        return
-    low, high = field.low, min(field.high, checks.LONGEST_TIME)
-    nearest = min(max(number, low), high)
-    zero = number == 0 and field.quantity in NEVER_ZERO
-    if abs(number - nearest) <= SAME * abs(nearest) and not zero:
-        return
-    nearest = field.step or math.nan if zero else nearest
-    bounds = "> 0" if zero and not low else f"from {low:g} to {high:g}"
-    off = "" if field.off is None else f" ({field.off:g} is off)"
-    there = "" if math.isnan(nearest) else f": the nearest is {nearest:g}"
-    raise BoxError(
-        f"{field.name} of {box.title} must be {bounds} {field.unit}".rstrip() + f"{off}, got {number:g}{there}",
-        field.name,
-        number,
-        nearest,
-    )
-
-
-def _off(field: Field) -> float:
-    """What the law has where an action is off."""
-    return math.inf if law_quantity(field) == "Ti" else 0.0
-
-
-def _carries_gain(field: Field) -> bool:
-    return field.quantity in ("gain", "PB", "Ki", "1/Ki", "Kd")
-
-
-def _with_sign(box: Box, name: str, value: float) -> float:
-    """-value where the field carries the gain of the controller."""
-    field = next(field for field in box.fields if field.name == name)
-    return -value if _carries_gain(field) and value else value
 
 
 def _box(key: str) -> Box:

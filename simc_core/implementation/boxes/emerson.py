@@ -1,42 +1,45 @@
 """Emerson: DeltaV, Rosemount fieldbus PID."""
 
+from functools import partial
+
 from simc_core.implementation.boxes.box import D_ON_PV, Box, Field
 
 _SETTINGS = (Field("GAIN", "gain", "%/%"), Field("RESET", "Ti", "s"), Field("RATE", "Td", "s"))
-_DELTAV = {
-    "maker": "Emerson",
-    "source": "DeltaV Books Online; units and forms from a third party",
-    "verified": "maker",
-    "filter": "ratio",
-    "N": 8.0,
-    "fields": (
+_DELTAV = partial(
+    Box,
+    maker="Emerson",
+    source="DeltaV Books Online; units and forms from a third party",
+    verified="maker",
+    filter="ratio",
+    N=8.0,
+    fields=(
         *_SETTINGS,
         Field("ALPHA", "1/N", "", 0.05, 1.0),
         Field("BETA", "b", "", 0.0, 1.0),
         Field("GAMMA", "c", "", 0.0, 1.0),
     ),
-    "notes": ("beyond the anti-reset-windup limits RESET acts 16 times as fast",),
-}
-_FIELDBUS = {
-    "maker": "Emerson",
-    "source": "Rosemount fieldbus PID",
-    "verified": "maker",
-    "filter": "fixed",
-    "N": 10.0,
-    "fields": _SETTINGS,
-    "structures": D_ON_PV,
-    "unread": ("where the derivative acts",),
-}
+    notes=("beyond the anti-reset-windup limits RESET acts 16 times as fast",),
+)
+_FIELDBUS = partial(
+    Box,
+    maker="Emerson",
+    source="Rosemount fieldbus PID",
+    verified="maker",
+    filter="fixed",
+    N=10.0,
+    fields=_SETTINGS,
+    structures=D_ON_PV,
+    unread=("where the derivative acts",),
+)
 
 BOXES = (
-    Box("deltav_standard", title="DeltaV PID, Standard", form="ideal", **_DELTAV),
-    Box(
+    _DELTAV("deltav_standard", title="DeltaV PID, Standard", form="ideal"),
+    _DELTAV(
         "deltav_series",
         title="DeltaV PID, Series",
         form="series",
         unread=("what BETA and GAMMA do in the series form",),
-        **_DELTAV,
     ),
-    Box("emerson_fieldbus_standard", title="Fieldbus PID, standard", form="ideal", **_FIELDBUS),
-    Box("emerson_fieldbus_series", title="Fieldbus PID, series", form="series", **_FIELDBUS),
+    _FIELDBUS("emerson_fieldbus_standard", title="Fieldbus PID, standard", form="ideal"),
+    _FIELDBUS("emerson_fieldbus_series", title="Fieldbus PID, series", form="series"),
 )

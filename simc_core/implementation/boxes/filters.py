@@ -42,6 +42,11 @@ def derivative_filtered(whole: ParallelPid) -> DerivativeFiltered | None:
     return DerivativeFiltered(Kp, whole.Ki, Kd, tau_F, b, c)
 
 
+def unfiltered(whole: ParallelPid) -> DerivativeFiltered:
+    """The controller without its filter."""
+    return DerivativeFiltered(whole.Kp, whole.Ki, whole.Kd, 0.0, whole.b, whole.c)
+
+
 def whole_filtered(own: DerivativeFiltered) -> ParallelPid:
     """The same controller with its filter on the whole, the set-point response included."""
     if own.Tf == 0 or own.Kd == 0:  # without derivative action its filter filters nothing

@@ -1,20 +1,23 @@
 """Honeywell: UDC, TDC 3000 and Experion. Equation B of the one is not PID-B of the other."""
 
+from functools import partial
+
 from simc_core.implementation.boxes.box import D_ON_PV, I_ON_E, ON_E, Box, Field
 
-_UDC = {
-    "maker": "Honeywell",
-    "source": "UDC2500 and UDC3300 manuals",
-    "verified": "maker",
-    "form": "ideal",
-    "structures": {"PID-A": (1.0, 1.0), "PID-B": (0.0, 0.0)},
-    "unread": ("the filter of the derivative",),
-    "notes": ("RATE up to 0.08 min is off",),
-}
+_UDC = partial(
+    Box,
+    maker="Honeywell",
+    source="UDC2500 and UDC3300 manuals",
+    verified="maker",
+    form="ideal",
+    structures={"PID-A": (1.0, 1.0), "PID-B": (0.0, 0.0)},
+    unread=("the filter of the derivative",),
+    notes=("RATE up to 0.08 min is off",),
+)
 _RATE = Field("RATE", "Td", "min", 0.09, 10.0, 0.01, off=0.0)
 
 BOXES = (
-    Box(
+    _UDC(
         "honeywell_udc",
         title="UDC2500, UDC3300, proportional band",
         fields=(
@@ -22,9 +25,8 @@ BOXES = (
             Field("RSET", "Ti", "min", 0.02, 50.0, 0.01),
             _RATE,
         ),
-        **_UDC,
     ),
-    Box(
+    _UDC(
         "honeywell_udc_gain",
         title="UDC2500, UDC3300, gain and repeats per minute",
         fields=(
@@ -32,7 +34,6 @@ BOXES = (
             Field("RSET", "1/Ti", "1/min", 0.02, 50.0, 0.01),
             _RATE,
         ),
-        **_UDC,
     ),
     Box(
         "honeywell_experion",

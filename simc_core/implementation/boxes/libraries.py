@@ -1,15 +1,18 @@
 """Function blocks and libraries: Beckhoff, CODESYS, OSCAT, IEC draft, simple-pid, Arduino, DiscretePIDs.jl, MATLAB."""
 
+from functools import partial
+
 from simc_core.implementation.boxes.box import D_ON_PV, I_ON_E, ON_E, Box, Field
 
 _SECONDS = (Field("TN", "Ti", "s", 1e-9), Field("TV", "Td", "s"))
-_SIGNED = {"sign": 1, "actions": ("positive gains", "negative gains")}
-_MATLAB = {
-    "maker": "MathWorks",
-    "source": "reference of pid, pidstd",
-    "verified": "maker",
-    "structures": ON_E,
-} | _SIGNED
+_SIGNED = partial(Box, sign=1, actions=("positive gains", "negative gains"))
+_MATLAB = partial(
+    _SIGNED,
+    maker="MathWorks",
+    source="reference of pid, pidstd",
+    verified="maker",
+    structures=ON_E,
+)
 _FORWARD = ("as a discrete object ForwardEuler is the default: it needs Tf > h/2",)
 _UNFILTERED = "the law has no filter"
 
@@ -34,7 +37,7 @@ BOXES = (
         unread=("how reverse and direct action are set, taken as the sign of fKp",),
         notes=("P and D go into the feedback path by two switches",),
     ),
-    Box(
+    _SIGNED(
         "codesys_pid",
         maker="CODESYS",
         title="Util PID",
@@ -49,9 +52,8 @@ BOXES = (
             "new parameters act after a reset or in manual only",
             "it measures its period in whole milliseconds: PID_FIXCYCLE does not",
         ),
-        **_SIGNED,
     ),
-    Box(
+    _SIGNED(
         "oscat_ctrl_pid",
         maker="OSCAT",
         title="CTRL_PID, FT_PIDWL",
@@ -61,7 +63,6 @@ BOXES = (
         fields=(Field("KP", "gain"), *_SECONDS),
         structures=ON_E,
         notes=(_UNFILTERED, "the integral is a trapezoid"),
-        **_SIGNED,
     ),
     Box(
         "iec_draft_pid",
@@ -81,7 +82,7 @@ BOXES = (
             "the derivative is a slope through four samples, (3 (x0 - x3) + x1 - x2)/(10 h)",
         ),
     ),
-    Box(
+    _SIGNED(
         "simple_pid",
         maker="Python",
         title="simple-pid 2.0",
@@ -91,7 +92,6 @@ BOXES = (
         fields=(Field("Kp", "gain"), Field("Ki", "Ki", "1/s"), Field("Kd", "Kd", "s")),
         structures=D_ON_PV | I_ON_E,
         notes=(_UNFILTERED, "the integral is clamped to the limits of the output"),
-        **_SIGNED,
     ),
     Box(
         "arduino_pid",
@@ -109,7 +109,7 @@ BOXES = (
             "the output is limited to 0-255 unless told otherwise",
         ),
     ),
-    Box(
+    _SIGNED(
         "discrete_pids",
         maker="Julia",
         title="DiscretePIDs.jl",
@@ -126,18 +126,16 @@ BOXES = (
             Field("b", "b", "", 0.0, 2.0),
         ),
         notes=("the integral is updated after use; tracking time sqrt(Ti Td)",),
-        **_SIGNED,
     ),
-    Box(
+    _MATLAB(
         "matlab_pid",
         title="pid",
         form="parallel",
         filter="time",
         fields=(Field("Kp", "gain"), Field("Ki", "Ki", "1/s"), Field("Kd", "Kd", "s"), Field("Tf", "Tf", "s")),
         notes=_FORWARD,
-        **_MATLAB,
     ),
-    Box(
+    _MATLAB(
         "matlab_pidstd",
         title="pidstd",
         form="ideal",
@@ -150,6 +148,5 @@ BOXES = (
             Field("N", "N", "", 1e-3),
         ),
         notes=_FORWARD,
-        **_MATLAB,
     ),
 )

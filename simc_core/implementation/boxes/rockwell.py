@@ -1,52 +1,50 @@
 """Rockwell: Logix PIDE and PID, SLC 500. Two instructions of one maker have two units."""
 
+from functools import partial
+
 from simc_core.implementation.boxes.box import D_ON_PV, I_ON_E, ON_E, Box, Field
 
 _TI = Field("Ti", "Ti", "min", 0.0, off=0.0)
 _TD = Field("Td", "Td", "min")
 _SWITCHED = D_ON_PV | ON_E | I_ON_E
 _SMOOTHING = ("how the derivative is smoothed",)
-_PIDE = {"maker": "Rockwell", "source": "1756-RM006K p. 80", "verified": "maker", "structures": _SWITCHED}
-_PID = {"maker": "Rockwell", "source": "1756-RM003N p. 519", "verified": "maker", "structures": D_ON_PV | ON_E}
+_PIDE = partial(Box, maker="Rockwell", source="1756-RM006K p. 80", verified="maker", structures=_SWITCHED)
+_PID = partial(Box, maker="Rockwell", source="1756-RM003N p. 519", verified="maker", structures=D_ON_PV | ON_E)
 _NDF = ("the smoothing of the derivative grows with Kd unless .NDF is set",)
-_SLC = {"maker": "Rockwell", "source": "1747-RM001G", "verified": "maker", "structures": D_ON_PV}
+_SLC = partial(Box, maker="Rockwell", source="1747-RM001G", verified="maker", structures=D_ON_PV)
 
 BOXES = (
-    Box(
+    _PIDE(
         "rockwell_pide_dependent",
         title="Logix PIDE, dependent gains",
         form="ideal",
         fields=(Field("PGain", "gain", "%/%"), Field("IGain", "Ti", "min", off=0.0), Field("DGain", "Td", "min")),
         unread=_SMOOTHING,
-        **_PIDE,
     ),
-    Box(
+    _PIDE(
         "rockwell_pide_independent",
         title="Logix PIDE, independent gains",
         form="parallel",
         fields=(Field("PGain", "gain", "%/%"), Field("IGain", "Ki", "%/% 1/min"), Field("DGain", "Kd", "%/% min")),
         unread=_SMOOTHING,
-        **_PIDE,
     ),
-    Box(
+    _PID(
         "logix_pid_dependent",
         title="Logix PID, dependent gains",
         form="ideal",
         fields=(Field("Kc", "gain", "%/%"), _TI, _TD),
         unread=("units, which are those of the text for PLC-5",),
         notes=_NDF,
-        **_PID,
     ),
-    Box(
+    _PID(
         "logix_pid_independent",
         title="Logix PID, independent gains",
         form="parallel",
         fields=(Field("Kp", "gain", "%/%"), Field("Ki", "Ki", "%/% 1/s"), Field("Kd", "Kd", "%/% s")),
         unread=("units, which are those of the text for PLC-5",),
         notes=(*_NDF, "Ki is per second and Kd in seconds, unlike PIDE"),
-        **_PID,
     ),
-    Box(
+    _SLC(
         "slc500",
         title="SLC 500 PID",
         form="ideal",
@@ -56,9 +54,8 @@ BOXES = (
             Field("Td", "Td", "min"),
         ),
         unread=("unit and step of Td", "where the derivative acts", "the filter of the derivative"),
-        **_SLC,
     ),
-    Box(
+    _SLC(
         "slc500_rg",
         title="SLC 500 PID, RG = 1",
         form="ideal",
@@ -68,6 +65,5 @@ BOXES = (
             Field("Td", "Td", "min"),
         ),
         unread=("unit and step of Td", "where the derivative acts", "the filter of the derivative"),
-        **_SLC,
     ),
 )

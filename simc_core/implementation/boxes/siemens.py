@@ -1,15 +1,18 @@
 """Siemens: PID_Compact, PID_Temp, FB41 CONT_C, TCONT_CP, PCS 7."""
 
+from functools import partial
+
 from simc_core.implementation.boxes.box import D_ON_PV, Box, Field
 
 _TI, _TD = Field("TI", "Ti", "s"), Field("TD", "Td", "s")
-_COMPACT = {
-    "maker": "Siemens",
-    "verified": "maker",
-    "form": "ideal",
-    "filter": "ratio",
-    "N": 5.0,
-    "fields": (
+_COMPACT = partial(
+    Box,
+    maker="Siemens",
+    verified="maker",
+    form="ideal",
+    filter="ratio",
+    N=5.0,
+    fields=(
         Field("Gain", "gain", "%/PV"),
         Field("Ti", "Ti", "s", off=0.0),
         Field("Td", "Td", "s"),
@@ -17,19 +20,18 @@ _COMPACT = {
         Field("PWeighting", "b", "", 0.0, 1.0),
         Field("DWeighting", "c", "", 0.0, 1.0),
     ),
-    "actions": ("InvertControl = FALSE", "InvertControl = TRUE"),
-    "unread": ("unit of Gain, taken as % of output for one unit of PV",),
-    "notes": ("TdFiltRatio = 0 takes the derivative away, not its filter",),
-}
+    actions=("InvertControl = FALSE", "InvertControl = TRUE"),
+    unread=("unit of Gain, taken as % of output for one unit of PV",),
+    notes=("TdFiltRatio = 0 takes the derivative away, not its filter",),
+)
 
 BOXES = (
-    Box(
+    _COMPACT(
         "siemens_pid_compact",
         title="PID_Compact, PID_3Step",
         source="Function Manual 03/2017; S7-1200 manual",
-        **_COMPACT,
     ),
-    Box("siemens_pid_temp", title="PID_Temp", source="parameters of PID_Temp", **_COMPACT),
+    _COMPACT("siemens_pid_temp", title="PID_Temp", source="parameters of PID_Temp"),
     Box(
         "siemens_cont_c",
         maker="Siemens",

@@ -1,6 +1,7 @@
 """C99: a struct and two functions; and the same in an Arduino sketch."""
 
 import math
+from collections.abc import Iterable
 
 from simc_core.errors import InvalidParameter
 from simc_core.implementation.exports.program import (
@@ -39,7 +40,7 @@ def arduino(program: Program) -> str:
     return "\n".join([*_comment(header), "", *_functions(program), "", *_sketch(seconds), ""])
 
 
-def _comment(lines) -> list[str]:
+def _comment(lines: Iterable[str]) -> list[str]:
     return ["/*", *(f" * {line}" for line in lines), " */"]
 
 

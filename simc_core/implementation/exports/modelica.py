@@ -1,7 +1,10 @@
 """A Modelica block of the controller and, with a plant, a model of the loop; the dead time is `delay`."""
 
+import numpy as np
+
 from simc_core.algebra.state_space import chain
 from simc_core.implementation.exports.program import MANUAL, MEANING, SETTINGS, STATE, Program, written
+from simc_core.plants.plant import Plant
 
 FORM = "{name} := {value};"
 HELD = tuple(name for name in STATE if name not in ("Kp_before", "u"))  # gains are parameters here
@@ -22,12 +25,12 @@ def modelica(program: Program) -> str:
     lines += ["    if manual then", "      u := min(max(u_manual, u_min), u_max);", *written(MANUAL, FORM, {}, " " * 6)]
     lines += ["    else", *written(program.automatic, FORM, {}, " " * 6), "      u := min(max(v, u_min), u_max);"]
     lines += ["    end if;", "  end when;", "end SimcPid;", ""]
-    return "\n".join([*lines, *(_loop(program) if program.plant else [])])
+    return "\n".join([*lines, *(_loop(program.plant) if program.plant else [])])
 
 
-def _loop(program: Program) -> list[str]:
-    A, B, C, D = chain(program.plant.factored)
-    n, theta = len(B), float(program.plant.theta)
+def _loop(plant: Plant) -> list[str]:
+    A, B, C, D = chain(plant.factored)
+    n, theta = len(B), float(plant.theta)
     x = "x" if n else None
     lines = ["model SimcLoop", "  SimcPid pid;", "  parameter Real r = 1.0;", "  parameter Real d = 0.0;", "  Real w;"]
     lines += ["  Real y;"]
@@ -44,9 +47,9 @@ def _loop(program: Program) -> list[str]:
     return lines
 
 
-def _vector(values) -> str:
+def _vector(values: np.ndarray) -> str:
     return "{" + ", ".join(repr(float(value)) for value in values) + "}"
 
 
-def _matrix(rows) -> str:
+def _matrix(rows: np.ndarray) -> str:
     return "{" + ", ".join(map(_vector, rows)) + "}"

@@ -189,7 +189,8 @@ def _number(name: str, text: str) -> Fraction:
 
 def _roots(name: str, text: str) -> Value:
     """prod(s - root) of [-1, -2+3i, -2-3i], complex ones in pairs."""
-    value, waiting = Value((ONE,)), []
+    value = Value((ONE,))
+    waiting: list[tuple[Fraction, Fraction]] = []
     words = re.split(r"\s*[,;]\s*|\s+", text.strip().strip("'.[]{} "))
     for word in filter(None, words):
         found = COMPLEX.fullmatch(word)

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 from simc_core.errors import ParseError
 from simc_core.numbers.refusal import quoted
-from simc_core.plants.parse_values import ONE, Value
+from simc_core.plants.parse_values import ONE, Polynomial, Value
 from simc_core.plants.pasted.statements import Statement
 
 GAINS = ("k", "km", "kp", "k0", "ks", "gain", "processgain")
@@ -50,7 +50,7 @@ def from_parameters(text: str, given: dict[str, tuple[Fraction, Statement]]) -> 
         if len(found["lag"]) != 1:
             raise _fault(text, "zeta belongs to one tau: write k=2, tau=5, zeta=0.3, theta=1", first)
         tau = found["lag"][0]
-        lags = (((one, 2 * found["damping"][0] * tau, tau * tau)),)
+        lags: tuple[Polynomial, ...] = ((one, 2 * found["damping"][0] * tau, tau * tau),)
     else:
         lags = tuple((one, tau) for tau in found["lag"])
     theta = found["delay"][0] if found["delay"] else Fraction(0)

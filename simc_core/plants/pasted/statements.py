@@ -55,7 +55,7 @@ def statements(plain: str) -> list[Statement]:
     elif title := TITLE.match(plain, 0, first):
         heads = [(re.sub(r".* ", "", title["name"]), title.end(), 0)]
     heads += [(match["name"].strip(), match.end(), match.start()) for match in found]
-    parts = []
+    parts: list[Statement] = []
     for i, (name, start, at) in enumerate(heads):
         stop = heads[i + 1][2] if i + 1 < len(heads) else len(plain)
         stop = start + len(JOINS.sub("", plain[start:stop])) if start <= stop else start

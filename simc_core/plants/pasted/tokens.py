@@ -108,6 +108,7 @@ def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str])
             hint = f": {SIGN_HINTS[text[at]]}" if text[at] in SIGN_HINTS else ""
             raise ParseError(f"'{text[at]}' is not part of a transfer function{hint} (position {at + 1})", text, at)
         kind, written = found.lastgroup, found[0]
+        assert kind is not None  # every alternative of TOKEN has a name
         if kind == "list" and not _is_list(written):
             kind, written = "sign", "["
         if kind == "word":

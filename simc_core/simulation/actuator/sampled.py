@@ -24,6 +24,7 @@ from simc_core.simulation.actuator.actuation import (
     Inputs,
     Stepped,
     affordable,
+    column,
     stepped,
     tracking_time_in_use,
 )
@@ -59,17 +60,19 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
 
 
 def _march(z: np.ndarray, n: int, ahead: list[Callable], reach: tuple[int, int], actuation: Actuation) -> None:
-    """All steps, each with its matrix. Columns as memoryviews: an array takes three times as long to index."""
+    """All steps, each with its matrix."""
     low, high = actuation.u_min, actuation.u_max
-    asked, given = memoryview(z[1:, n + ASKED]), memoryview(z[1:, n + GIVEN])
-    w1, w2 = memoryview(z[reach[0] :, W1]), memoryview(z[reach[1] :, W2])
+    asked, given = column(z, n + ASKED, 1), column(z, n + GIVEN, 1)
+    w1, w2 = column(z, W1, reach[0]), column(z, W2, reach[1])
     for j, (take, row, head) in enumerate(zip(ahead, z, z[1:, : n + GIVEN], strict=False)):
         take(row, head)
         u = asked[j]
         given[j] = w1[j] = w2[j] = low if u < low else high if u > high else u
 
 
-def _matrices(plant: Driven, form: ParallelPid, actuation: Actuation, pull: float, reach: tuple[int, int]):
+def _matrices(
+    plant: Driven, form: ParallelPid, actuation: Actuation, pull: float, reach: tuple[int, int]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Matrices of a step that begins with a sample and of one that does not; rows of y at the start and at the end."""
     system, (_, G1, G2) = plant.system, plant.step
     at_once1, at_once2 = (steps == 0 for steps in reach)

@@ -16,7 +16,7 @@ from numpy.polynomial import chebyshev, legendre
 
 from simc_core.errors import InvalidParameter
 
-P = 20  # nodes of an element
+NODES_PER_ELEMENT = 20  # P in the shapes of arrays
 TOLERANCE = 1e-14
 MOST_ELEMENTS = 4000
 
@@ -34,10 +34,13 @@ def _radau_nodes(p: int) -> np.ndarray:
     return (roots + 1) / 2
 
 
-NODES = _radau_nodes(P)
-TO_CHEBYSHEV = np.linalg.inv(chebyshev.chebvander(2 * NODES - 1, P - 1))  # nodal values -> coefficients
+NODES = _radau_nodes(NODES_PER_ELEMENT)
+TO_CHEBYSHEV = np.linalg.inv(chebyshev.chebvander(2 * NODES - 1, NODES_PER_ELEMENT - 1))  # nodal values -> coefficients
 _INTEGRALS = np.array(
-    [chebyshev.chebval(2 * NODES - 1, chebyshev.chebint(np.eye(P)[j], lbnd=-1)) / 2 for j in range(P)]
+    [
+        chebyshev.chebval(2 * NODES - 1, chebyshev.chebint(np.eye(NODES_PER_ELEMENT)[j], lbnd=-1)) / 2
+        for j in range(NODES_PER_ELEMENT)
+    ]
 ).T
 COLLOCATION = _INTEGRALS @ TO_CHEBYSHEV  # a_ij
 
@@ -51,8 +54,8 @@ def mesh(modes: np.ndarray, length: float) -> np.ndarray:
     modes, size = modes[size * length > 1e-3], size[size * length > 1e-3]
     if not len(modes):
         return np.array([length])
-    reach = 4 * P / math.e * TOLERANCE ** (1 / P) / size
-    decay = np.maximum(-modes.real, 0.0) / P
+    reach = 4 * NODES_PER_ELEMENT / math.e * TOLERANCE ** (1 / NODES_PER_ELEMENT) / size
+    decay = np.maximum(-modes.real, 0.0) / NODES_PER_ELEMENT
     ends, steps = 0.0, []
     while ends < length * (1 - 1e-12):
         with np.errstate(over="ignore"):

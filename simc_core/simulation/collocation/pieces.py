@@ -6,8 +6,9 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.typing import ArrayLike
 
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 
 TINY = 1e-300  # to the left of 0
 NEAR = 1e-12  # relative to t: an instant this close below an edge is the edge, where the right-hand limit holds
@@ -26,7 +27,7 @@ class Pieces:
     edges: np.ndarray
     coefficients: np.ndarray
 
-    def __call__(self, t, left=None) -> np.ndarray:
+    def __call__(self, t: ArrayLike, left: np.ndarray | None = None) -> np.ndarray:
         """Values at t (n,), shape (n, ...); zero before 0, the last value after the end.
 
         Right-hand limits at edges, left-hand ones where `left` (n,) says so. One matrix product for each run of

@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from simc_core.controllers.forms import ParallelPid
-from simc_core.simulation.collocation.elements import TO_CHEBYSHEV, P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
+from simc_core.simulation.collocation.elements import TO_CHEBYSHEV
 from simc_core.simulation.one_delay.element_sizes import EYE, Elements, ElementSizes
 from simc_core.simulation.one_delay.process_maps import SIGNALS
 from simc_core.simulation.one_delay.step_control import MIDDLE

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.plants.plant import Plant
-from simc_core.simulation.collocation.elements import NODES, TO_CHEBYSHEV, P, mesh
+from simc_core.simulation.collocation.elements import NODES, TO_CHEBYSHEV, mesh
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.one_delay.process_maps import ProcessMaps
 
 AHEAD, MORE = 8, 4  # levels made at once of one plant: at first, and when these do not reach; of several as needed

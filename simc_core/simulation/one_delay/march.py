@@ -30,7 +30,7 @@ from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.one_delay.closed_element import END, PARTS, ClosedElements, Z
 from simc_core.simulation.one_delay.element_sizes import ElementSizes, levels
 from simc_core.simulation.one_delay.limits import (
@@ -51,6 +51,8 @@ SMOOTH = 7  # order of derivative from which a jump is left to the tails
 MOST_INTERVALS = 3 * SMOOTH  # of theta that are stepped over first
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 LARGEST = 1e150  # an unstable response is cut off here
+
+Chosen = slice | np.ndarray  # some of the tunings, or all of them, along the first axis of an array
 
 
 def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most: float | None = None) -> UnitResponses:
@@ -131,7 +133,7 @@ class March:
         self.most, self.on_average = (most if t_end is None else MOST_TO_END), most
         self.closed = ClosedElements(forms, self.levels, units)
         self.coarse = math.inf if finest else COARSE  # tail of an interval that asks for a finer mesh
-        self.theta, self.t_end, self.n = sizes.theta, t_end, n
+        self.theta, self.t_end, self.n = sizes.theta, math.inf if t_end is None else t_end, n
         self.to_rest = t_end is None
         if self.to_rest:
             final = [final_values(self._plant(i), form) for i, form in enumerate(forms)]
@@ -243,7 +245,7 @@ class March:
                 which, at, level, self._intervals(which, at, 1) if on_mesh else self._element(which, at, level)
             )
 
-    def _intervals(self, which: list[int], at, count: int) -> list[np.ndarray]:
+    def _intervals(self, which: list[int], at: Chosen, count: int) -> list[np.ndarray]:
         """Some intervals of theta, each on its mesh: w is z of the interval before."""
         x, step, matrices = self.x[at], [], [self.closed[level].G[at] for level in self.levels.mesh]
         known = self._history(which, 0) @ self.z[at, -P:] if self.controls[which[0]].before else self.z[at]
@@ -255,7 +257,7 @@ class March:
             step.append(out)
         return step
 
-    def _element(self, which: list[int], at, level: int) -> list[np.ndarray]:
+    def _element(self, which: list[int], at: Chosen, level: int) -> list[np.ndarray]:
         """One element of theta 2^level, w and z together."""
         x, closed = self.x[at], self.closed[level]
         right = closed.begun[at] @ x
@@ -270,7 +272,7 @@ class March:
             return self.levels.history(before[0], level)
         return np.array([self.levels.history(each, level) for each in before])
 
-    def _decide(self, which: list[int], at, level: int, step: list[np.ndarray]) -> None:
+    def _decide(self, which: list[int], at: Chosen, level: int, step: list[np.ndarray]) -> None:
         """Keep what is good enough, shorten what is not; choose the level of the next element."""
         on_mesh, parts = level == 0 and self.theta > 0, self._parts(level)
         sizes = [np.maximum.reduceat(np.abs(out[:, :END]), PARTS, axis=1) for out in step]
@@ -291,8 +293,8 @@ class March:
         self._keep(which, at, level, step, parts)
         self.largest[at] = largest
         judged, unit = self.levels.mesh[-1] if on_mesh else level, self.levels.unit
-        sizes = self._sizes(at, step[-len(parts) :], largest)
-        for i, middle, tail, size in zip(which, middles, tails, sizes, strict=True):
+        reached = self._sizes(at, step[-len(parts) :], largest)
+        for i, middle, tail, size in zip(which, middles, tails, reached, strict=True):
             control = self.controls[i]
             left = None if self.to_rest else (self.t_end - control.t) / unit
             control.lengthen(judged, middle, tail, control.t / unit, left)
@@ -315,7 +317,7 @@ class March:
             self.rates[i] = -poles[0].s.real if poles else math.inf
         return self.rates[i]
 
-    def _sizes(self, at, last: list[np.ndarray], largest: np.ndarray) -> list[float]:
+    def _sizes(self, at: Chosen, last: list[np.ndarray], largest: np.ndarray) -> list[float]:
         """How far from rest each response gets, over its largest value; on the way to t_end how large it has been."""
         if not self.to_rest:
             return largest.max(axis=(1, 2)).tolist()
@@ -323,7 +325,7 @@ class March:
         away = _largest([np.maximum.reduceat(np.abs(out[:, : 2 * P] - final), (0, P), axis=1) for out in last])
         return np.maximum.reduce(away / largest, axis=(1, 2)).tolist()
 
-    def _keep(self, which: list[int], at, level: int, step: list[np.ndarray], parts: list[float]) -> None:
+    def _keep(self, which: list[int], at: Chosen, level: int, step: list[np.ndarray], parts: list[float]) -> None:
         """Enter a batch, and go on from its end."""
         controls, intervals = [self.controls[i] for i in which], len(step) // len(parts)
         self.batches.append(Batch(which, [control.t for control in controls], parts * intervals, step))

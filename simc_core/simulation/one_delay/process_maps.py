@@ -25,7 +25,8 @@ from simc_core.controllers.forms import needs_filter
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import factored_plant
 from simc_core.plants.plant import Plant
-from simc_core.simulation.collocation.elements import COLLOCATION, P
+from simc_core.simulation.collocation.elements import COLLOCATION
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 
 SIGNALS = 4  # y, p, p', integral of p
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -94,7 +95,9 @@ def _rows(rows: Sequence[Row]) -> Rows:
     return a, b, c
 
 
-def _section(num: Rows, den: Rows, K: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int):
+def _section(
+    num: Rows, den: Rows, K: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int
+) -> tuple[np.ndarray, np.ndarray, int]:
     """One section: its output and the slope of it, and the next free state; the states at the end go into `ends`.
 
     The slope is right where the section is strictly proper.

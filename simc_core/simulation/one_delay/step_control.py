@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 
 from simc_core.errors import InvalidParameter
-from simc_core.simulation.collocation.elements import P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 
 TAIL = 1e-11
 ROOM, SMALL, AIM = 1e-3, 0.03, 0.1  # of TAIL

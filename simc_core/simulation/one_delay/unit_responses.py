@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from simc_core.simulation.collocation.elements import TO_CHEBYSHEV, P
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
+from simc_core.simulation.collocation.elements import TO_CHEBYSHEV
 from simc_core.simulation.collocation.pieces import NEAR, Pieces, chebyshev_basis
 
 
@@ -79,15 +80,20 @@ class UnitResponses:
 
 def course(batches: Sequence[Batch], at_rest: Sequence[bool]) -> UnitResponses:
     """Batches sorted by tuning and time, their values as polynomials."""
-    n, owner, begin, length, nodal = len(at_rest), [], [], [], []
-    for which, begins, lengths, values in batches:
-        for own, start, h in zip(values, accumulate(lengths[:-1], initial=0.0), lengths, strict=True):
-            owner += which
-            begin += [each + start for each in begins]
-            length += [h] * len(which)
+    n = len(at_rest)
+    owners: list[int] = []
+    begins: list[float] = []
+    lengths: list[float] = []
+    nodal: list[np.ndarray] = []
+    for batch in batches:
+        starts = accumulate(batch.lengths[:-1], initial=0.0)
+        for own, start, h in zip(batch.values, starts, batch.lengths, strict=True):
+            owners += batch.which
+            begins += [each + start for each in batch.begin]
+            lengths += [h] * len(batch.which)
             nodal.append(own)
     values = np.concatenate(nodal)[:, : 2 * P].reshape(-1, 2, P, 2)
-    owner, begin, length = np.array(owner), np.array(begin), np.array(length)
+    owner, begin, length = np.array(owners), np.array(begins), np.array(lengths)
     if n > 1:
         order = np.argsort(owner, kind="stable")
         owner, begin, length, values = owner[order], begin[order], length[order], values[order]

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from simc_core.simulation.collocation.elements import COLLOCATION, NODES, TO_CHEBYSHEV, P
+from simc_core.simulation.collocation.elements import COLLOCATION, NODES, TO_CHEBYSHEV
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.several_delays.network import Network
 
 LEFT = 1e-9  # of an element: closer than this to an edge from the right is the edge, seen from the left

@@ -61,9 +61,10 @@ def network(loops: NestedLoops) -> Network:
     u, v = [np.zeros(width)] * N, np.eye(width)[n + N :]
     set_point = v[0]
     for i in reversed(range(N)):
-        if forms[i] is not None:
-            form = forms[i] if i == N - 1 else _on_error(forms[i])
-            set_point, used = _controller(form, set_point, y[i], slopes[i], states, used)
+        form = forms[i]
+        if form is not None:
+            acting = form if i == N - 1 else _on_error(form)
+            set_point, used = _controller(acting, set_point, y[i], slopes[i], states, used)
         u[i] = set_point
     z = np.array([(u[0] if i == 0 else y[i - 1]) + v[1 + i] for i in range(N)])
     theta = np.array([block.theta for block in loops.blocks])
@@ -75,10 +76,13 @@ def integral_states(loops: NestedLoops) -> list[int | None]:
     used = sum(block.order for block in loops.blocks)
     found: list[int | None] = [None] * len(loops.blocks)
     for i in reversed(range(len(loops.blocks))):
-        form = loops.controllers[i].to_parallel() if loops.controllers[i] else None
-        if form and form.Ki:
+        controller = loops.controllers[i]
+        if controller is None:
+            continue
+        form = controller.to_parallel()
+        if form.Ki:
             found[i] = used
-        used += (form.Ki != 0) + (form.tau_F > 0) if form else 0
+        used += (form.Ki != 0) + (form.tau_F > 0)
     return found
 
 
@@ -88,7 +92,9 @@ def _on_error(form: ParallelPid) -> ParallelPid:
     return ParallelPid(form.Kp, form.Ki, form.Kd, form.tau_F, 1.0, 1.0)
 
 
-def _controller(form: ParallelPid, r, y, slope, states, used: int):
+def _controller(
+    form: ParallelPid, r: np.ndarray, y: np.ndarray, slope: np.ndarray | None, states: np.ndarray, used: int
+) -> tuple[np.ndarray, int]:
     """Rows of the controller's states are entered from `used` on; the row of u and the next free state."""
     width = len(y)
     xi = np.zeros(width)
@@ -110,9 +116,11 @@ def _controller(form: ParallelPid, r, y, slope, states, used: int):
     return filtered + kick, used + 1
 
 
-def _parts(states, z, outputs, n: int, N: int, theta) -> Network:
-    x, w, v = slice(0, n), slice(n, n + N), slice(n + N, None)
-    return Network(*(rows[:, part] for rows in (states, z, outputs) for part in (x, w, v)), theta)
+def _parts(states: np.ndarray, z: np.ndarray, outputs: np.ndarray, n: int, N: int, theta: np.ndarray) -> Network:
+    (A, B, E), (C, D, F), (Co, Do, Fo) = (
+        (rows[:, :n], rows[:, n : n + N], rows[:, n + N :]) for rows in (states, z, outputs)
+    )
+    return Network(A, B, E, C, D, F, Co, Do, Fo, theta)
 
 
 def _without(gone: np.ndarray, system: Network) -> Network:
@@ -130,5 +138,6 @@ def _without(gone: np.ndarray, system: Network) -> Network:
         (system.Co, system.Do, system.Fo),
     ):
         through = of_w[:, gone]
-        rows += [of_x + through @ C, of_w[:, kept] + through @ D, of_v + through @ F]
-    return Network(*rows, system.theta[kept])
+        rows.append((of_x + through @ C, of_w[:, kept] + through @ D, of_v + through @ F))
+    (A, B, E), (C, D, F), (Co, Do, Fo) = rows
+    return Network(A, B, E, C, D, F, Co, Do, Fo, system.theta[kept])

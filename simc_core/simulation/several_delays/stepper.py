@@ -17,7 +17,8 @@ import numpy as np
 
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import NestedLoops
-from simc_core.simulation.collocation.elements import NODES, P
+from simc_core.simulation.collocation.elements import NODES
+from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.several_delays.breakpoints import SMOOTH, Breakpoints
 from simc_core.simulation.several_delays.delay_maps import LEFT, DelayMap, delay_map
@@ -91,7 +92,8 @@ class NestedStepper:
             self.h, self.good, self.patience = min(self.h, self.first[self.behind]), 0, 1
 
     def _step(self) -> None:
-        left = math.inf if self.upcoming is None else self.upcoming[0] - self.t
+        upcoming = math.inf if self.upcoming is None else self.upcoming[0]
+        left = upcoming - self.t
         for _ in range(FEWEST_BITS):
             last = left <= self.h * (1 + 1e-9)
             length = left if last else self.h
@@ -106,7 +108,7 @@ class NestedStepper:
             for order in range(self.behind + 1, SMOOTH):
                 self.first[order] = min(self.first[order], 2 * self.first[order - 1])
             self.behind, self.patience = SMOOTH, 1
-        self._keep(values, x, self.upcoming[0] if last else self.t + length)
+        self._keep(values, x, upcoming if last else self.t + length)
         self.good += 1
         if not last and (tail < ROOM or self.good >= self.patience):
             self.h *= 2

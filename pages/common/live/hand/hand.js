@@ -60,6 +60,10 @@ export class Hand extends Instrument {
     return { responses: responsePanels(this.setup, scale) };
   }
 
+  get movesSettings() {
+    return this.setup.moves_settings;
+  }
+
   get values() {
     return Object.fromEntries(this.used.map(({ name, tau_c }) => [name, tau_c]));
   }

@@ -12,7 +12,7 @@ import numpy as np
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
-from pages.common.live.tuning.table import CURVES, SHOWN, Grid, cap, judged, responses
+from pages.common.live.tuning.table import CURVES, SHOWN, Grid, at_rest, cap, responses
 from pages.common.parts.settings_text import UNITS
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, study_of_settings
@@ -120,6 +120,7 @@ def setup(subject: Subject, grid: Grid, present: Study, behind: Sequence[tuple[s
         "kind": "setup",
         "id": name,
         "knobs": knobs(subject),
+        "moves_settings": subject.settings,
         "plant": plant,
         "controller": _controller(subject.controller),
         "steps": grid.steps,
@@ -159,7 +160,7 @@ def exact(subject: Subject, grid: Grid, values: dict[str, float], name: str, ans
         "answers": answers,
         "labels": axis_labels(sheet),
         "stable": each.stable,
-        "metrics": figures(judged(each, grid.omega)),
+        "metrics": figures(at_rest(each, grid.omega)),
     }
     return pack(header, dict(zip(CURVES, responses(loop, grid), strict=True)))
 

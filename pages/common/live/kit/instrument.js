@@ -79,8 +79,25 @@ export class Instrument {
     if (now.curves !== false) this.views[this.view]?.draw(now);
     this.figures(now);
     this.root.dataset.exact = now.exact;
+    this.around(!now.exact && this.movesSettings);
     this.root.dataset.drawn = this.slider.tau_c;
     if (now.exact) this.describe(now);
+  }
+
+  /** The rest of the page: what it says of the settings waits until they come to rest (parts/style.css). */
+  around(moving) {
+    document.querySelector("[data-testid=stMain]")?.toggleAttribute("data-moving", moving);
+  }
+
+  /** Whether the settings of the controller change under the hand. */
+  get movesSettings() {
+    return true;
+  }
+
+  /** It leaves the page. */
+  leave() {
+    this.stop();
+    this.around(false);
   }
 
   /** The panels in words, for those who do not see them; only when at rest. */

@@ -17,7 +17,7 @@ export function mount(name, make) {
     box.open = (message) => one.take(message);
     for (const message of box.waiting.splice(0)) one.take(message);
     return () => {
-      one.stop();
+      one.leave();
       live.delete(parentElement);
       if (live.size === 0) box.open = null;
     };

@@ -94,8 +94,9 @@ export class Panel {
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.plot;
-    if (this.chart && width > 0 && height > 0 && (width !== this.chart.width || height !== this.chart.height))
-      this.chart.setSize({ width, height });
+    if (!this.chart || !width || !height || (width === this.chart.width && height === this.chart.height)) return;
+    this.chart.setSize({ width, height });
+    this.redraw(); // the limits of a square panel follow its shape
   }
 
   /** Coloured ranges behind the curves: [x, y, width, height, colour] in pixels of the canvas, or of the page. */

@@ -47,6 +47,7 @@ FIGURES = (
     "overshoot",
     "noise_gain",
 )
+AT_REST = ("peak_disturbance", "settling_setpoint", "settling_disturbance")  # they jump: not read between rows
 SHOWN = (
     "Ms",
     "GM",
@@ -54,10 +55,13 @@ SHOWN = (
     "delay_margin",
     "IAE_setpoint",
     "IAE_disturbance",
+    "peak_disturbance",
     "Mt",
     "TV_setpoint",
     "TV_disturbance",
     "overshoot",
+    "settling_setpoint",
+    "settling_disturbance",
     "noise_gain",
 )
 
@@ -237,7 +241,7 @@ def exact(subject: Subject, grid: Grid, present: Study, name: str, answers: int,
         "labels": axis_labels(sheet),
         "stable": present.stable,
         "settings": sizes(present.controller.in_form(subject.form)),
-        "metrics": figures(judged(present, grid.omega)),
+        "metrics": figures(at_rest(present, grid.omega)),
     }
     return pack(header, dict(zip(CURVES, responses(present.loop, grid), strict=True)))
 
@@ -263,6 +267,16 @@ def judged(each: Study, omega: np.ndarray) -> dict[str, float]:
         "noise_gain": noise_gain(each.loop.L(s), each.loop.plant.response(s), each.controller),
     }
     return {name: values[name] for name in FIGURES}
+
+
+def at_rest(each: Study, omega: np.ndarray) -> dict[str, float]:
+    """FIGURES of a study, and those that are computed when nothing moves; all nan where the loop is not stable."""
+    metrics, found = each.performance, judged(each, omega)
+    if metrics is None:
+        return found | dict.fromkeys(AT_REST, math.nan)
+    load = metrics.disturbance
+    values = (load.peak, metrics.setpoint.settling_time, load.settling_time)
+    return found | dict(zip(AT_REST, values, strict=True))
 
 
 def noise_gain(L: np.ndarray, G: np.ndarray, controller: Controller) -> float:

@@ -1,0 +1,160 @@
+"""The models: all structures with their fit, the chosen one as a card, and what to think of it."""
+
+import math
+from html import escape
+
+import streamlit as st
+
+from pages.common.from_data.work import MORE, USUAL, Fits, Work
+from pages.common.parts.symbols import SYMBOLS, sentence
+from pages.common.session import state
+from pages.common.session.design import Design
+from simc_core import Identified, Trend
+from simc_core.notation import number
+
+TITLES = {
+    "FOPDT": "First order",
+    "SOPDT": "Second order",
+    "IPDT": "Integrating",
+    "IPDT_lag": "Integrating with lag",
+    "inverse": "With a zero",
+    "oscillating": "Oscillating",
+    "DIPDT": "Double integrating",
+    "unstable": "Unstable",
+}
+FORMULAS = {
+    "FOPDT": r"\frac{k\,e^{-\theta s}}{\tau_1 s+1}",
+    "SOPDT": r"\frac{k\,e^{-\theta s}}{(\tau_1 s+1)(\tau_2 s+1)}",
+    "IPDT": r"\frac{k'e^{-\theta s}}{s}",
+    "IPDT_lag": r"\frac{k'e^{-\theta s}}{s(\tau_2 s+1)}",
+    "DIPDT": r"\frac{k''e^{-\theta s}}{s^2}",
+    "inverse": r"\frac{k(Ts+1)e^{-\theta s}}{(\tau_1 s+1)(\tau_2 s+1)}",
+    "oscillating": r"\frac{k\,e^{-\theta s}}{\tau_0^2s^2+2\zeta\tau_0 s+1}",
+    "unstable": r"\frac{k'e^{-\theta s}}{s-a}",
+}
+SIGNS = {"k_prime": "k'", "k_double_prime": "k''"}
+UNITS = {"k": (1, 0), "k_prime": (1, -1), "k_double_prime": (1, -2), "zeta": (0, 0), "a": (0, -1)}
+
+
+def fits_of(work: Work, part: Trend, design: Design) -> Fits:
+    """All structures fitted, with a bar while that takes long."""
+    wanted = USUAL + (MORE if state.widget("more_structures") else ())
+    with st.spinner("Fitting", show_time=True):
+        return work.fitted(part, design.record, wanted)
+
+
+def chosen_of(fits: Fits, design: Design) -> Identified | None:
+    """The model that is chosen, else the best."""
+    return next((each for each in fits.found if each.structure == design.record.structure), None) or next(
+        iter(fits.found), None
+    )
+
+
+def ranking(fits: Fits, model: Identified, trend: Trend) -> None:
+    """All structures, the best first; one is chosen."""
+    keys = [each.structure for each in fits.found]
+    state.set_widget("structure", model.structure)
+    st.segmented_control(
+        "Model, the best first",
+        keys,
+        format_func=lambda key: TITLES[key],
+        key="structure",
+        required=True,
+        on_change=_take,
+    )
+    st.toggle("More structures", key="more_structures", help="A zero, oscillating, double integrating, unstable.")
+    unit = trend.units.get("t", "")
+    rows = [
+        {
+            "model": TITLES[each.structure],
+            "fit [%]": f"{100 * each.fit:.1f}",
+            "behind": number(each.criterion) if each.criterion else "best",
+            f"θ [{unit}]" if unit else "θ": number(each.parameters["theta"]),
+            "others": ", ".join(
+                f"{_plain(name)} = {number(value)}" for name, value in each.parameters.items() if name != "theta"
+            ),
+        }
+        for each in fits.found
+    ]
+    with st.expander("All fits"):
+        st.dataframe(rows, hide_index=True, width="stretch", height="content")
+        st.caption(
+            "Behind: difference of the information criterion from the best. Up to 6 a structure fits nearly as well, "
+            "and the simpler one is the safer choice."
+        )
+
+
+def card(model: Identified, trend: Trend, part: Trend) -> None:
+    """The model with its 95 % intervals, and the verdicts."""
+    st.markdown(f"$\\displaystyle G(s) = {FORMULAS[model.structure]}$")
+    cells = "".join(_cell(name, model, trend) for name in model.parameters)
+    slope = ""
+    if model.slope is not None and "tau1" in model.parameters:
+        value, error = model.slope
+        slope = _cell_html("k/τ₁", number(value), f"± {number(1.96 * error, 2)}", _unit("k_prime", trend))
+    label = "Parameters of the model with 95 % intervals"
+    st.html(f'<div class="typed model" role="group" aria-label="{label}">{cells}{slope}</div>')
+    facts = [f"fit {100 * model.fit:.1f} %", f"{part.t.size} samples", f"noise {number(model.noise, 2)}"]
+    if model.correlation > 0.05:
+        facts.append(f"correlation of neighbouring residuals {number(model.correlation, 2)}")
+    st.caption(", ".join(facts) + ". Intervals: 95 %.")
+    for verdict in model.verdicts:
+        st.warning(sentence(verdict))
+    if len(model.gains) > 1:
+        _gains(model, trend)
+
+
+def _gains(model: Identified, trend: Trend) -> None:
+    with st.expander("Gain of each move"):
+        unit = trend.units.get("t", "")
+        rows = [
+            {
+                f"t [{unit}]" if unit else "t": number(each.t),
+                "OP": f"{number(each.before)} → {number(each.after)}",
+                "gain": number(each.gain),
+                "± (95 %)": number(1.96 * each.standard_error, 2),
+            }
+            for each in model.gains
+        ]
+        st.dataframe(rows, hide_index=True, width="stretch", height="content")
+        st.caption("A linear process has the same gain at every move.")
+
+
+def _take() -> None:
+    if not state.overtaken("structure"):
+        state.change(structure=state.widget("structure") or "")
+
+
+def _cell(name: str, model: Identified, trend: Trend) -> str:
+    low, high = model.intervals[name]
+    return _cell_html(_plain(name), number(model.parameters[name]), _between(low, high), _unit(name, trend))
+
+
+def _cell_html(label: str, value: str, spread: str, unit: str) -> str:
+    return f"<div><small>{label}</small><b>{value}</b> <i>{escape(unit)}</i><small>{spread}</small></div>"
+
+
+def _plain(name: str) -> str:
+    return SIGNS.get(name) or SYMBOLS.get(name, name)
+
+
+def _unit(name: str, trend: Trend) -> str:
+    """Of a parameter, empty where one of its units has no name."""
+    gain, power = UNITS.get(name, (0, 1))
+    t, y, u = (trend.units.get(each, "") for each in "tyu")
+    if (gain and not (y and u)) or (power and not t):
+        return ""
+    first = ("1" if y == u else f"{y}/{u}") if gain else ""
+    if not power:
+        return "" if first == "1" else first
+    if power == 1:
+        return t
+    below = t if power == -1 else f"{t}²"
+    return f"{first or 1}/{below}" if "/" not in first else f"{y}/({u} {below})"
+
+
+def _between(low: float, high: float) -> str:
+    """An interval with as many digits as its width deserves."""
+    size, width = max(abs(low), abs(high)), high - low
+    digits = 3 if not 0 < width < size else min(max(3, 1 + math.ceil(math.log10(size / width))), 8)
+    return f"{number(low, digits)} … {number(high, digits)}"

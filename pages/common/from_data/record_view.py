@@ -1,0 +1,149 @@
+"""The record: PV, SP and OP, which part of it is fitted, and what is left out."""
+
+import streamlit as st
+
+from pages.common.from_data.work import Work, ends_of, moves_of
+from pages.common.parts.number_field import number_field
+from pages.common.parts.symbols import symbols
+from pages.common.session import state
+from pages.common.session.design import Design
+from pages.common.session.record import MOST_BAD
+from simc_core import Identified, SimcError, Trend, checks
+from simc_core.figures import config
+from simc_core.figures.palette import Figure
+from simc_core.figures.trend import trend_figure
+from simc_core.notation import number
+
+HEIGHT, TALL = 360, 460  # px
+
+
+def figure(work: Work, trend: Trend, design: Design, part: Trend | None, model: Identified | None) -> None:
+    """PV over OP, with the model and its residuals where there is one."""
+    chosen = design.record
+    cut = None if chosen.begin is None and chosen.end is None else _part(trend, design)
+    fitted = None if model is None or part is None else (part.t, model.predicted, model.residuals)
+    found = trend_figure(
+        trend, cut, chosen.bad, [move.t for move in moves_of(trend)], fitted, HEIGHT if fitted is None else TALL
+    )
+    name = "PV, OP" if trend.r is None else "PV, SP, OP"
+    told = " and the model with its residuals" if fitted else ""
+    alt = f"Record of {name} over {number(trend.span)} {trend.units.get('t', '')}{told}"
+    st.plotly_chart(in_units(found, trend), key="figure_trend", config=config("trend"), alt=alt)
+
+
+def in_units(found: Figure, trend: Trend) -> Figure:
+    """Axes with the units of the record, which are foreign text: plain signs alone."""
+    units = {"time unit": trend.units.get("t"), "unit of y": trend.units.get("y"), "unit of u": trend.units.get("u")}
+    for name, axis in found["layout"].items():
+        if name[1:5] == "axis":
+            for place, unit in units.items():
+                if unit:
+                    plain = "".join(c for c in unit if c.isalnum() or c in "%°/·⁻²³ ()")[:16]
+                    axis["title"]["text"] = axis["title"]["text"].replace(place, plain)
+    return found
+
+
+def choose_part(trend: Trend, design: Design) -> None:
+    """From where to where: a slider to drag, and two fields to type."""
+    low, high = ends_of(trend)
+    begin, end = _part(trend, design)
+    unit = trend.units.get("t", "")
+    state.set_widget("part", (begin, end))
+    places = st.columns([4, 1, 1], gap="small", vertical_alignment="bottom")
+    places[0].slider(
+        "Part that is fitted",
+        low,
+        high,
+        key="part",
+        step=(high - low) / 1000,
+        format="%.5g",
+        on_change=_take_part,
+        args=(low, high),
+    )
+    for name, place, value in (("begin", places[1], begin), ("end", places[2], end)):
+        number_field(
+            {"begin": "From", "end": "To"}[name],
+            float(f"{value:.6g}"),
+            lambda value, name=name: _check(trend, name, value),
+            lambda value, name=name: state.change(**{name: value}),
+            f"part_{name}",
+            unit=unit,
+            place=place,
+            under=st.container(),
+        )
+
+
+def bad_pieces(trend: Trend, design: Design) -> None:
+    """Stretches that are left out: two fields and a list to take them back from."""
+    unit = trend.units.get("t", "")
+    bad = design.record.bad
+    title = f"Left out: {len(bad)}" if bad else "Leave out a bad piece"
+    with st.expander(title):
+        given: dict[str, float] = state.lasting("bad_piece", dict)
+        places = st.columns([1, 1, 1], gap="small", vertical_alignment="bottom")
+        for name, place in (("from", places[0]), ("to", places[1])):
+            number_field(
+                f"Bad {name}",
+                given.get(name),
+                lambda value: None if value is None else checks.real("It", value, *ends_of(trend)),
+                lambda value, name=name: given.__setitem__(name, value),
+                f"bad_{name}",
+                unit=unit,
+                optional=True,
+                place=places[0] if name == "from" else place,
+                under=st.container(),
+            )
+        full = len(bad) >= MOST_BAD
+        places[2].button(
+            "Leave out", key="leave_out", on_click=_leave_out, args=(trend, given), disabled=full, width="stretch"
+        )
+        why = state.lasting("bad_refused", str)
+        if why:
+            st.error(symbols(why))
+        for i, (low, high) in enumerate(bad):
+            label = f"Take back {number(low)} to {number(high)} {unit}".rstrip()
+            st.button(label, key=f"take_back_{i}", on_click=_take_back, args=(i,))
+
+
+def _part(trend: Trend, design: Design) -> tuple[float, float]:
+    low, high = ends_of(trend)
+    begin, end = design.record.begin, design.record.end
+    begin = low if begin is None else min(max(begin, low), high)
+    end = high if end is None else min(max(end, low), high)
+    return (begin, end) if begin < end else (low, high)
+
+
+def _take_part(low: float, high: float) -> None:
+    if state.overtaken("part"):
+        return
+    begin, end = state.widget("part")
+    if begin < end:
+        state.change(begin=None, end=None)
+        state.change(begin=begin if begin > low else None, end=end if end < high else None)
+
+
+def _check(trend: Trend, name: str, value: float | None) -> None:
+    low, high = ends_of(trend)
+    label = {"begin": "From", "end": "To"}[name]
+    checks.real(label, value, low, high)
+    state.with_changes(**{name: value})
+
+
+def _leave_out(trend: Trend, given: dict[str, float]) -> None:
+    why = ""
+    low, high = given.get("from"), given.get("to")
+    try:
+        if low is None or high is None or not low < high:
+            raise SimcError("both ends are needed, the second after the first")
+        bad = (*state.value("bad"), (low, high))
+        trend.without(low, high)
+        state.change(bad=bad)
+        given.clear()
+    except SimcError as error:
+        why = str(error)
+    state.make_last("bad_refused", why)
+
+
+def _take_back(i: int) -> None:
+    bad = state.value("bad")
+    state.change(bad=bad[:i] + bad[i + 1 :])

@@ -1,0 +1,106 @@
+"""Where the record comes from: a file, a paste, or an example that the program makes."""
+
+import streamlit as st
+
+from pages.common.from_data.examples import EXAMPLES
+from pages.common.from_data.work import Work, work_on, work_on_example
+from pages.common.parts.foreign_text import exact, told
+from pages.common.session import state
+from pages.common.session.design import Design
+from simc_core import SimcError
+
+LONGEST_PASTE = 500_000  # characters; what one message of a browser may hold is twice as much
+LARGEST_MB = 20
+KINDS = ["csv", "txt", "tsv", "log", "dat", "xlsx", "xls", "xlsb", "ods"]
+WORK, REFUSED, TURN = "from_data", "from_data_refused", "from_data_turn"
+
+
+def choose(design: Design) -> Work | None:
+    """Widgets for a file, a paste and examples; the record that is worked on, None for none."""
+    _follow_link(design.record.example)
+    work: Work | None = state.lasting(WORK, lambda: None)
+    turn = state.lasting(TURN, lambda: 0)  # a fresh field each time: nothing of a file or a paste stays in it
+    upload = st.file_uploader(
+        "Trend: time, PV, OP, and SP where there is one",
+        type=KINDS,
+        key=f"trend_file_{turn}",
+        max_upload_size=LARGEST_MB,
+        help="It is read here and forgotten with this session.",
+    )
+    if upload is not None:
+        _read(upload.name, upload.getvalue())
+        state.make_last(TURN, turn + 1)
+        st.rerun()
+    with st.expander("Paste"), st.form("paste", border=False):
+        pasted = st.text_area(
+            "Rows of a spreadsheet, with or without names above",
+            key=f"trend_paste_{turn}",
+            height=120,
+            max_chars=LONGEST_PASTE,
+            placeholder="Time\tPV\tOP\n0\t20.5\t40\n1\t20.5\t45",
+        )
+        if st.form_submit_button("Read", width="stretch"):
+            if _read("pasted rows", (pasted or "") + "\n"):
+                state.make_last(TURN, turn + 1)
+            st.rerun()
+    state.set_widget("example", work.example if work and work.example else None)
+    st.selectbox(
+        "Or an example",
+        list(EXAMPLES),
+        format_func=lambda key: EXAMPLES[key].title,
+        index=None,
+        placeholder="Choose one to try",
+        key="example",
+        on_change=_take_example,
+    )
+    _refusal()
+    return state.lasting(WORK, lambda: None)
+
+
+def _follow_link(example: str) -> None:
+    """A link names an example: it is made, unless it is there."""
+    work: Work | None = state.lasting(WORK, lambda: None)
+    if example and (work is None or work.example != example):
+        try:
+            state.make_last(WORK, work_on_example(example))
+        except SimcError as error:
+            state.make_last(REFUSED, ("the link", str(error)))
+            state.change(example="")
+
+
+def _take_example() -> None:
+    if state.overtaken("example"):
+        return
+    key = state.widget("example")
+    state.make_last(REFUSED, None)
+    if key:
+        state.make_last(WORK, work_on_example(key))
+        state.change(example=key, begin=None, end=None, bad=(), structure="")
+
+
+def _read(name: str, content: bytes | str) -> bool:
+    """Work on this; what is no trend changes nothing, and the reason stays."""
+    try:
+        work = work_on(name, content)
+    except SimcError as error:
+        state.make_last(REFUSED, (name, str(error)))
+        return False
+    state.make_last(WORK, work)
+    state.make_last(REFUSED, None)
+    state.change(example="", begin=None, end=None, bad=(), structure="")
+    return True
+
+
+def _refusal() -> None:
+    refused = state.lasting(REFUSED, lambda: None)
+    if refused:
+        name, why = refused
+        st.error(f"{exact(name)} was not read, nothing changed: {told(why)}")
+
+
+def empty() -> None:
+    """What to do where there is no record yet."""
+    st.info(
+        "Upload or paste a record of a step test: time, the measurement (PV) and the controller output (OP). "
+        "A record in closed loop serves too, if the set point moved. Or choose an example to try."
+    )

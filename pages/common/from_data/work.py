@@ -1,0 +1,110 @@
+"""The record that is being worked on: read once, then cut, cleaned and fitted. Pure: no streamlit."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from pages.common.from_data.examples import EXAMPLES, text_of
+from pages.common.session.record import Chosen
+from simc_core import Identified, NotIdentifiable, SimcError, Trend, find_moves, identify_all
+from simc_core.identification.moves import Move
+from simc_core.identification.reading.meaning import Reading, understand
+from simc_core.identification.reading.reader import load
+from simc_core.identification.reading.table import Table
+
+OF_A_FILE = ("decimal", "day_first", "sheet")  # what a file must be read anew for
+USUAL = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag")
+MORE = ("inverse", "oscillating", "DIPDT", "unstable")
+
+
+@dataclass(slots=True)
+class Fits:
+    """What came of the fitting of one part of a record. why: the refusal, where there is one."""
+
+    of: tuple[Any, ...]
+    found: tuple[Identified, ...] = ()
+    why: str = ""
+
+
+@dataclass(slots=True)
+class Work:
+    """A record.
+
+    name: of the file or example.   example: its key, "" for a file.   content: of the file, kept while a question about
+    it is open only.   how: answers that were given, by names of arguments of `read_trend`.
+    reading: what it was understood to be.   fits: of the part that is fitted at present.
+    """
+
+    name: str
+    example: str
+    content: bytes | str | None
+    table: Table
+    reading: Reading
+    how: dict[str, Any] = field(default_factory=dict)
+    fits: Fits | None = None
+
+    @property
+    def trend(self) -> Trend | None:
+        """The whole record."""
+        return self.reading.trend
+
+    def answer(self, name: str, value: Any) -> None:
+        """Take an answer and understand the record anew. Raises SimcError, and then nothing has changed."""
+        how = self.how | {name: value}
+        table = self.table
+        if name in OF_A_FILE and self.content is not None:
+            table = load(self.content, **{key: how[key] for key in OF_A_FILE if key in how})
+        reading = _understood(table, how)
+        self.how, self.table, self.reading, self.fits = how, table, reading, None
+
+    def part(self, chosen: Chosen) -> Trend | None:
+        """The part that is fitted. Raises SimcError where nothing is left of it."""
+        if self.trend is None:
+            return None
+        trend = self.trend
+        if chosen.begin is not None or chosen.end is not None:
+            ends = (chosen.begin, chosen.end)
+            begin, end = (usual if given is None else given for given, usual in zip(ends, ends_of(trend), strict=True))
+            trend = trend.between(begin, end)
+        for low, high in chosen.bad:
+            trend = trend.without(low, high)
+        return trend
+
+    def fitted(self, trend: Trend, chosen: Chosen, structures: tuple[str, ...]) -> Fits:
+        """All structures fitted to this part, kept until another part is asked for."""
+        of = (chosen.begin, chosen.end, chosen.bad, structures)
+        if self.fits is None or self.fits.of != of:
+            try:
+                self.fits = Fits(of, identify_all(trend, structures))
+            except NotIdentifiable as error:
+                self.fits = Fits(of, why=str(error))
+        return self.fits
+
+
+def work_on(name: str, content: bytes | str, example: str = "") -> Work:
+    """A record from the content of a file, or a paste. Raises SimcError."""
+    table = load(content)
+    reading = _understood(table, {})
+    asked = any(question.name in OF_A_FILE for question in reading.questions) or len(table.sheets) > 1
+    return Work(name, example, content if asked else None, table, reading)
+
+
+def work_on_example(key: str) -> Work:
+    """A record that the program makes. Raises SimcError."""
+    if key not in EXAMPLES:
+        raise SimcError(f"example must be one of {', '.join(EXAMPLES)}, found {key[:20]}")
+    return work_on(EXAMPLES[key].title, text_of(key), key)
+
+
+def _understood(table: Table, how: dict[str, Any]) -> Reading:
+    return understand(table, **{key: value for key, value in how.items() if key not in ("decimal", "sheet")})
+
+
+def ends_of(trend: Trend) -> tuple[float, float]:
+    """First and last instant."""
+    return float(trend.t[0]), float(trend.t[-1])
+
+
+def moves_of(trend: Trend) -> tuple[Move, ...]:
+    """Moves of OP that are few enough to be meant one by one."""
+    found = find_moves(trend)
+    return found if len(found) <= 40 else ()

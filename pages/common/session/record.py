@@ -1,0 +1,136 @@
+"""What the page From data works on, and where a plant came from that was found there. Pure: no streamlit.
+
+A record itself is in no link and no file; what is chosen of it is, and what was found.
+"""
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from simc_core import Plant, checks
+from simc_core.errors import InvalidParameter, SimcError
+from simc_core.identification.estimator.structures import STRUCTURES
+from simc_core.identification.trend import LARGEST_INSTANT
+from simc_core.plants.plant import scaled
+
+MOST_BAD = 12  # stretches that are left out
+LONGEST_SOURCE = 60  # characters
+LONGEST_KEY = 20
+PARAMETERS = {  # of each structure, in order, with the power of time in its unit
+    "FOPDT": {"k": 0, "theta": 1, "tau1": 1},
+    "SOPDT": {"k": 0, "theta": 1, "tau1": 1, "tau2": 1},
+    "IPDT": {"k_prime": -1, "theta": 1},
+    "IPDT_lag": {"k_prime": -1, "theta": 1, "tau2": 1},
+    "DIPDT": {"k_double_prime": -2, "theta": 1},
+    "inverse": {"k": 0, "T": 1, "theta": 1, "tau1": 1, "tau2": 1},
+    "oscillating": {"k": 0, "theta": 1, "tau0": 1, "zeta": 0},
+    "unstable": {"k_prime": -1, "theta": 1, "a": -1},
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """What is chosen of a record.
+
+    example: key of one that the program makes, "" for one that was read.   structure: of the model, "" for the best.
+    begin, end: of the part that is fitted, in the time of the record; None for its ends.
+    bad: stretches that are left out, as pairs (from, to).
+    """
+
+    example: str = ""
+    structure: str = ""
+    begin: float | None = None
+    end: float | None = None
+    bad: tuple[tuple[float, float], ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.example) > LONGEST_KEY or (not self.example.replace("_", "a").isalnum() and self.example):
+            raise InvalidParameter(f"example must be a key of at most {LONGEST_KEY} letters, got {self.example[:30]}")
+        if self.structure not in ("", *STRUCTURES):
+            raise InvalidParameter(f"structure must be one of {', '.join(STRUCTURES)}, got {self.structure[:30]}")
+        for name in ("begin", "end"):
+            if getattr(self, name) is not None:
+                number = checks.real(name, getattr(self, name), -LARGEST_INSTANT, LARGEST_INSTANT)
+                object.__setattr__(self, name, number)
+        if self.begin is not None and self.end is not None and not self.begin < self.end:
+            raise InvalidParameter(f"end must be > begin = {self.begin:g}, got {self.end:g}")
+        for low, high in checks.items("bad", self.bad, MOST_BAD):
+            checks.real("end of a bad stretch", high, checks.real("bad", low, -LARGEST_INSTANT), LARGEST_INSTANT)
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """From what a plant was identified.
+
+    plant: what came out.   structure: its key.   errors: standard errors of PARAMETERS of the structure, in order.
+    fit: 1 - |residuals|/|PV - mean|.   samples: of PV.   source: name of the file or example.
+    """
+
+    plant: Plant
+    structure: str
+    errors: tuple[float, ...]
+    fit: float
+    samples: int
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__
+        if self.structure not in PARAMETERS:
+            raise InvalidParameter(f"structure must be one of {', '.join(PARAMETERS)}, got {self.structure[:30]}")
+        wanted = len(PARAMETERS[self.structure])
+        if len(self.errors) != wanted:
+            raise InvalidParameter(f"{self.structure} has {wanted} standard errors, got {len(self.errors)}")
+        put(
+            self, "errors", tuple(checks.real("standard error", each, 0.0, checks.LARGEST_GAIN) for each in self.errors)
+        )
+        put(self, "fit", checks.real("fit", self.fit, -checks.LARGEST_GAIN, 1.0))
+        put(self, "samples", checks.whole("samples", self.samples, 1, 1_000_000))
+        put(self, "source", "".join(c for c in self.source if c.isprintable())[:LONGEST_SOURCE])
+
+    def rescaled(self, plant: Plant, time: Fraction) -> "Origin":
+        """The same for the plant in another time unit; times are multiplied by `time`."""
+        powers = PARAMETERS[self.structure].values()
+        errors = tuple(
+            scaled(each, time) if power == 1 else each / float(time) ** -power
+            for each, power in zip(self.errors, powers, strict=True)
+        )
+        return Origin(plant, self.structure, errors, self.fit, self.samples, self.source)
+
+
+def origin_text(origin: Origin | None) -> str:
+    """structure~fit~samples~standard errors~source; empty for None."""
+    if origin is None:
+        return ""
+    numbers = [repr(origin.fit), str(origin.samples), *(repr(each) for each in origin.errors)]
+    return "~".join([origin.structure, *numbers, origin.source])
+
+
+def origin_of(text: str, plant: Plant) -> Origin:
+    """The origin of this plant. Raises SimcError."""
+    structure, *rest = text.split("~")
+    if structure not in PARAMETERS:
+        raise SimcError(f"origin begins with one of {', '.join(PARAMETERS)}, got {structure[:20]}")
+    count = 2 + len(PARAMETERS[structure])
+    try:
+        fit, samples, *errors = (float(each) for each in rest[:count])
+    except ValueError:
+        raise SimcError(f"origin of {structure} has {count} numbers after its name") from None
+    return Origin(
+        plant, structure, tuple(errors), fit, samples if math.isfinite(samples) else -1, "~".join(rest[count:])
+    )
+
+
+def bad_text(bad: tuple[tuple[float, float], ...]) -> str:
+    """from~to, separated by !."""
+    return "!".join(f"{low!r}~{high!r}" for low, high in bad)
+
+
+def bad_of(text: str) -> tuple[tuple[float, float], ...]:
+    """The stretches of a text. Raises SimcError."""
+    try:
+        pairs = [tuple(float(each) for each in part.split("~")) for part in text.split("!")]
+    except ValueError:
+        raise SimcError("bad stretches are pairs of numbers, from~to, separated by !") from None
+    if not all(len(pair) == 2 for pair in pairs):
+        raise SimcError("bad stretches are pairs of numbers, from~to, separated by !")
+    return tuple((pair[0], pair[1]) for pair in pairs)

@@ -1,0 +1,40 @@
+"""From a file or a paste to a model one can trust, and on to its tuning."""
+
+import streamlit as st
+
+from pages.common.from_data import models_view, record_view, source, tuning_view, understood
+from pages.common.from_data.graphical_view import graphical
+from pages.common.parts.foreign_text import told
+from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.symbols import sentence
+from pages.common.shell import header
+
+design = header.show("from_data")
+with st.container(key="from_data"):
+    controls, shown = st.columns([4, 11], gap="medium")
+with controls:
+    work = source.choose(design)
+    if work is not None:
+        understood.show(work)
+with shown, explain_refusal():
+    if work is None:
+        source.empty()
+    elif work.trend is None:
+        st.error(sentence(told(work.reading.refusal)))
+    else:
+        trend = work.trend
+        place = st.container()
+        record_view.choose_part(trend, design)
+        record_view.bad_pieces(trend, design)
+        part = work.part(design.record)
+        fits = models_view.fits_of(work, part, design)
+        model = models_view.chosen_of(fits, design)
+        with place:
+            record_view.figure(work, trend, design, part, model)
+        if model is None:
+            st.error(f"**No model.** {sentence(fits.why)}")
+        else:
+            models_view.ranking(fits, model, trend)
+            models_view.card(model, trend, part)
+            tuning_view.show(work, trend, part, model)
+            graphical(part, model)

@@ -1,0 +1,140 @@
+"""A record and what was fitted to it: PV with SP and the model, OP below, the residuals at the bottom."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simc_core.figures import palette
+from simc_core.figures.palette import Figure, Trace
+from simc_core.figures.thinned import held, thinned
+from simc_core.identification.trend import Trend
+
+Array = NDArray[np.float64]
+MOST_BANDS = 12
+
+
+def trend_figure(
+    trend: Trend,
+    part: tuple[float, float] | None = None,
+    bad: Sequence[tuple[float, float]] = (),
+    moves: Sequence[float] = (),
+    fitted: tuple[Array, Array, Array] | None = None,
+    height: int | None = None,
+) -> Figure:
+    """PV over OP.
+
+    Parameters
+    ----------
+    trend : Trend
+        The whole record.
+    part : (float, float), optional
+        From where to where it is fitted; the rest is shaded.
+    bad : sequence of (float, float)
+        Stretches that are left out, shaded.
+    moves : sequence of float
+        Instants of moves of OP, marked.
+    fitted : (t, y, residuals), optional
+        The model's PV and what it leaves, each shape (n,).
+    height : int, optional
+        In px.
+    """
+    end = float(max(trend.t[-1], trend.instants_of_u[-1]))
+    hover: dict[str, Any] = {"hovertemplate": "%{y:.4g}"}
+    traces: list[Trace] = []
+    if trend.r is not None:
+        traces.append(palette.line(*held(trend.t, trend.r, end), "SP", palette.R, "dash", 1.4, **hover))
+    traces.append(palette.line(*thinned(trend.t, trend.y), "PV", palette.Y, width=1.4, **hover))
+    traces.append(
+        palette.line(*held(trend.instants_of_u, trend.u, end), "OP", palette.U, width=1.6, yaxis="y2", **hover)
+    )
+    domains = {"y": [0.36, 1.0], "y2": [0.0, 0.3]}
+    extra = {}
+    if fitted is not None:
+        t, y, residuals = fitted
+        traces.append(palette.line(*thinned(t, y), "model", palette.REDUCED, "dash", 2.0, **hover))
+        traces.append(palette.line(*thinned(t, residuals), "residual", palette.NEUTRAL, width=1, yaxis="y3", **hover))
+        domains = {"y": [0.5, 1.0], "y2": [0.24, 0.45], "y3": [0.0, 0.19]}
+        extra = {"yaxis3": palette.axis("PV − model", domain=domains["y3"], zeroline=True, nticks=4)}
+    shaded = [_band(low, high) for low, high in bad[:MOST_BANDS]]
+    if part is not None:
+        begin, last = float(trend.t[0]), end
+        shaded += [_band(a, b) for a, b in ((begin, part[0]), (part[1], last)) if b > a]
+    lines = [_mark(t) for t in moves]
+    return palette.figure(
+        traces,
+        palette.axis(palette.TIME, hoverformat=".5g", anchor="y3" if fitted is not None else "y2"),
+        palette.axis("PV  [unit of y]", domain=domains["y"]),
+        height,
+        yaxis2=palette.axis("OP  [unit of u]", domain=domains["y2"], nticks=5),
+        shapes=[*shaded, *lines],
+        **extra,
+    )
+
+
+def tau_c_figure(
+    tau_c: Array,
+    middle: Array,
+    high: Array,
+    limit: float,
+    marked: Sequence[tuple[str, float]],
+    height: int | None = None,
+) -> Figure:
+    """Ms against tau_c: what is expected, and what is not exceeded with the probability that was asked for.
+
+    Parameters
+    ----------
+    tau_c, middle, high : array, shape (n,)
+        high may be inf where too many loops are not stable.
+    limit : float
+        Of Ms.
+    marked : sequence of (str, float)
+        tau_c with names.
+    """
+    seen = np.isfinite(high) & (high < 4)
+    hover: dict[str, Any] = {"hovertemplate": "%{y:.3f}"}
+    traces = [
+        palette.line(tau_c[seen], high[seen], "upper limit", palette.S, "dash", 2.0, **hover),
+        palette.line(tau_c[middle < 4], middle[middle < 4], "median", palette.S, **hover),
+        palette.line(tau_c[[0, -1]], [limit, limit], "limit", palette.NEUTRAL, "dot", 1.4, hoverinfo="skip"),
+    ]
+    shapes = [_mark(t) for _, t in marked]
+    names = [{**palette.label(name, t, 1.0, above=False), "yref": "paper", "xanchor": "left"} for name, t in marked]
+    return palette.figure(
+        traces,
+        palette.axis("τc  [time unit]", hoverformat=".4g"),
+        palette.axis("Ms"),
+        height,
+        shapes=shapes,
+        annotations=names,
+    )
+
+
+def _band(low: float, high: float) -> dict[str, object]:
+    return {
+        "type": "rect",
+        "xref": "x",
+        "yref": "paper",
+        "x0": low,
+        "x1": high,
+        "y0": 0,
+        "y1": 1,
+        "line": {"width": 0},
+        "fillcolor": palette.GRID,
+        "layer": "below",
+    }
+
+
+def _mark(t: float) -> dict[str, object]:
+    return {
+        "type": "line",
+        "xref": "x",
+        "yref": "paper",
+        "x0": t,
+        "x1": t,
+        "y0": 0,
+        "y1": 1,
+        "line": {"color": palette.NEUTRAL, "width": 1, "dash": "dot"},
+        "layer": "below",
+    }

@@ -1,0 +1,1 @@
+"""Output error with exact dead time: responses to the held OP, the linear part projected out, search and refinement."""

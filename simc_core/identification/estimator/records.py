@@ -1,0 +1,69 @@
+"""A trend made ready for fitting: relative times, moves of OP, weights; and the same in fewer points."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.identification.estimator.held_input import Array, HeldInput
+from simc_core.identification.estimator.outliers import spikes
+from simc_core.identification.trend import Trend
+
+MANY_MOVES = 100  # more than these, and a mean may take in a move of OP: they are everywhere
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Record:
+    """Samples y at t, counted from the first, with their weights and the moves of OP."""
+
+    t: Array
+    y: Array
+    weight: Array
+    held: HeldInput
+    span: float
+    interval: float  # median distance of samples
+    even: bool
+
+    @property
+    def first_move(self) -> float:
+        """Instant of the first move of OP, not before the first sample."""
+        return max(float(self.held.s[0]), 0.0)
+
+    def weighted(self, weight: Array) -> "Record":
+        """The same samples with other weights."""
+        return Record(self.t, self.y, weight, self.held, self.span, self.interval, self.even)
+
+    def reduced(self, points: int) -> "Record":
+        """At most about `points` weighted means of neighbours; a mean takes in no move of OP where these are few."""
+        if self.t.size <= points:
+            return self
+        label = np.arange(self.t.size) * points // self.t.size
+        if self.held.s.size <= MANY_MOVES:
+            label = label + np.searchsorted(self.held.s, self.t, "right")
+        label = np.unique(label, return_inverse=True)[1]
+        weight = np.bincount(label, self.weight).astype(float)
+        kept = weight > 0
+        t = np.bincount(label, self.weight * self.t)[kept] / weight[kept]
+        y = np.bincount(label, self.weight * self.y)[kept] / weight[kept]
+        return Record(t, y, weight[kept], self.held, self.span, self.interval, False)
+
+
+def as_record(trend: Trend, between_samples: bool) -> Record:
+    """The record of a trend.
+
+    Parameters
+    ----------
+    trend : Trend
+        What was measured.
+    between_samples : bool
+        OP was written down from time to time only: its moves are put in the middle of the interval they were found in.
+    """
+    t_u = trend.instants_of_u - trend.t[0]
+    if between_samples:
+        t_u = np.concatenate([t_u[:1], (t_u[1:] + t_u[:-1]) / 2])
+    t = trend.t - trend.t[0]
+    steps = np.diff(t)
+    even = bool(np.ptp(steps) <= 1e-6 * steps.mean())
+    own = steps[steps > 0]
+    return Record(
+        t, trend.y, (~spikes(trend.y)).astype(float), HeldInput(t_u, trend.u), trend.span, float(np.median(own)), even
+    )

@@ -1,0 +1,118 @@
+"""All structures against one trend, ranked by a criterion that has the same noise for all.
+
+IC = 2 n_e ln(sigma) + p ln(n_e) + 2 p, with n_e the effective samples of the closest fit: with its own n_e, a structure
+that fits badly, and so leaves correlated residuals, would win.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import exp, log, sqrt
+
+from simc_core import checks
+from simc_core.controllers.forms import IController
+from simc_core.errors import NotIdentifiable, SimcError
+from simc_core.identification.identified import Identified
+from simc_core.identification.identify import identify, resolution_of, response_of, trends_of
+from simc_core.identification.trend import Trend
+from simc_core.rules.simc import simc
+
+USUAL = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag")
+MARGIN = 2.0  # of the criterion, for each parameter
+BELIEVED = 1e-3  # of the response: a structure gains nothing by fitting better
+NEAR = 6.0  # of the criterion within which a structure fits nearly as well
+
+
+def identify_all(
+    trend: Trend | Sequence[Trend],
+    structures: Sequence[str] = USUAL,
+    *,
+    drift: bool | None = None,
+    between_samples: bool = False,
+    sign: int | None = None,
+) -> tuple[Identified, ...]:
+    """Several structures fitted, the best first.
+
+    Parameters
+    ----------
+    trend : Trend, or several
+    structures : sequence of str
+        Keys, see `identify`; by default those that any trend may be asked for.
+    drift : bool, optional
+    between_samples : bool
+    sign : {1, -1}, optional
+        As for `identify`.
+
+    Returns
+    -------
+    tuple of Identified
+        `criterion` is the distance from the first, and the first says which others fit nearly as well.
+
+    Raises
+    ------
+    NotIdentifiable
+        No structure could be fitted; the reason of the first.
+    InvalidParameter
+        As for `identify`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from simc_core import Trend, identify_all
+    >>> t = np.arange(0.0, 60.0)
+    >>> y = 10 * np.where(t > 13.5, 1 - np.exp(-(t - 13.5).clip(0) / 8), 0)
+    >>> identify_all(Trend(t, y, np.where(t >= 10, 55, 50)))[0].structure
+    'FOPDT'
+    """
+    trends = trends_of(trend)
+    keys = checks.items("structures", structures, 8)
+    found: list[Identified] = []
+    reasons: list[NotIdentifiable] = []
+    for key in keys:
+        try:
+            found.append(identify(trends, key, drift=drift, between_samples=between_samples, sign=sign))
+        except NotIdentifiable as error:
+            reasons.append(error)
+    if not found:
+        raise reasons[0] if reasons else NotIdentifiable("structures must name at least one, found none")
+    return _ranked(found, trends)
+
+
+def _ranked(found: list[Identified], trends: list[Trend]) -> tuple[Identified, ...]:
+    step = resolution_of(trends)
+    floor = max(BELIEVED * response_of(trends), step / sqrt(12))
+    closest = min(found, key=lambda one: one.noise)
+    effective = max(closest.estimate.noise.effective, 4.0)
+    value = {
+        one.structure: 2 * effective * log(max(one.noise, floor)) + one.estimate.fit.free * (log(effective) + MARGIN)
+        for one in found
+    }
+    ranked = sorted(found, key=lambda one: value[one.structure])
+    best = value[ranked[0].structure]
+    placed = [replace(one, criterion=value[one.structure] - best) for one in ranked]
+    placed[0] = replace(placed[0], verdicts=(*placed[0].verdicts, *_nearly(placed)))
+    return tuple(placed)
+
+
+def _nearly(placed: list[Identified]) -> list[str]:
+    """What the structures that fit nearly as well would change."""
+    said = []
+    for other in placed[1:]:
+        if other.criterion <= NEAR:
+            likely = 100 / (1 + exp(other.criterion / 2))
+            odds = f"{likely:.0f} to {100 - likely:.0f} %"
+            title = other.estimate.fit.problem.structure.title
+            said.append(f"A model {title} fits nearly as well ({odds}){_change(placed[0], other)}.")
+    return said
+
+
+def _change(best: Identified, other: Identified) -> str:
+    try:
+        ours, theirs = simc(best.model), simc(other.model)
+    except SimcError:
+        return ""
+    if isinstance(ours, IController) or isinstance(theirs, IController):
+        return ""
+    return (
+        f"; SIMC with tau_c = theta would set Kc {theirs.Kc:.3g} and tau_I {theirs.tau_I:.3g} instead of "
+        f"{ours.Kc:.3g} and {ours.tau_I:.3g}"
+    )

@@ -1,0 +1,200 @@
+"""What the columns of a file are, and the trend they make."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from simc_core.errors import DataError, SimcError
+from simc_core.identification.reading.cleaning import HOUR, first_is_rubbish, in_order, without_repeats
+from simc_core.identification.reading.columns import QUALITY, Column
+from simc_core.identification.reading.historian import by_tags, is_long
+from simc_core.identification.reading.instants import UNIT_SECONDS
+from simc_core.identification.reading.questions import Question
+from simc_core.identification.reading.roles import ROLES, roles_of
+from simc_core.identification.reading.table import Table
+from simc_core.identification.reading.time_axis import TimeAxis, signals, time_axis
+from simc_core.identification.trend import Trend
+
+FAR_AWAY = 100.0  # spans from zero: such a time is counted from its first row
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reading:
+    """What a file was understood to be.
+
+    Parameters
+    ----------
+    trend : Trend or None
+        None where something is missing; `refusal` then says what.
+    roles : mapping
+        Names of the columns that are time, PV, OP and SP; "" for none.
+    signals : tuple of str
+        Names of all columns that may be PV, OP or SP.
+    understood : tuple of str
+        One sentence for each step.
+    questions : tuple of Question
+        What is not clear, with the answer that is assumed meanwhile.
+    refusal : str
+        Why there is no trend, "" where there is one.
+    """
+
+    trend: Trend | None
+    roles: Mapping[str, str]
+    signals: tuple[str, ...]
+    understood: tuple[str, ...]
+    questions: tuple[Question, ...] = ()
+    refusal: str = ""
+
+
+def understand(
+    table: Table,
+    *,
+    columns: Mapping[str, str | int | None] | None = None,
+    time_unit: str | None = None,
+    period: float | None = None,
+    day_first: bool | None = None,
+) -> Reading:
+    """What the columns are, and the trend they make; parameters as of `read_trend`.
+
+    Raises DataError where a column that is told does not exist, or none can be PV.
+    """
+    told = {role: _place(table.columns, role, column) for role, column in (columns or {}).items()}
+    found: Sequence[Column] = table.columns
+    axis = time_axis(found, told.get("time"), time_unit, period, day_first)
+    understood = [*table.understood, *axis.said]
+    if axis.columns and is_long(found):
+        found, axis, said = by_tags(found, axis)
+        understood = [*table.understood, *axis.said, said]
+        told = {role: _place(found, role, column) for role, column in (columns or {}).items() if role != "time"}
+    candidates = signals(found, axis)
+    roles = roles_of(found, candidates, {role: told[role] for role in ROLES if role in told})
+    if "OP" in told or "PV" in told:
+        roles.questions = [each for each in roles.questions if each.name not in told]
+    questions = (*table.questions, *axis.questions, *roles.questions)
+    understood += roles.said
+    names = {role: "" if at is None else found[at].name for role, at in roles.at.items()}
+    times = [i for i in axis.columns if i >= 0]
+    names["time"] = table.columns[times[0]].name if times and found is table.columns else ""
+    choices = tuple(found[i].name for i in candidates)
+    refusal = _refusal(axis, roles.at)
+    trend = None
+    if not refusal:
+        trend, mended, refusal = _trend(found, axis, roles.at)
+        understood += mended
+        trend = trend and replace(trend, notes=tuple(understood))
+    return Reading(trend, names, choices, tuple(understood), questions, refusal)
+
+
+def _place(columns: Sequence[Column], role: str, column: str | int | None) -> int | None:
+    if role not in ("time", *ROLES):
+        raise DataError(f"columns may name time, PV, OP and SP, found {str(role)[:20]}")
+    names = [each.name for each in columns]
+    if column is None:
+        return None
+    if isinstance(column, str) and column in names:
+        return names.index(column)
+    if isinstance(column, int) and 0 <= column < len(names):
+        return column
+    raise DataError(f"{role} must be one of the columns {', '.join(names)[:200]}, found {str(column)[:40]}")
+
+
+def _refusal(axis: TimeAxis, at: Mapping[str, int | None]) -> str:
+    if not axis.columns:
+        return "no column is time: tell how long it is from one row to the next, period=..."
+    if at["OP"] is None:
+        return (
+            "no column is the controller output (OP). A model tells how PV follows OP: log both, and SP, "
+            "and repeat the test"
+        )
+    return ""
+
+
+def _trend(
+    columns: Sequence[Column], axis: TimeAxis, at: Mapping[str, int | None]
+) -> tuple[Trend | None, list[str], str]:
+    """The trend, what was mended, and why there is none."""
+    pv, op, sp = at["PV"], at["OP"], at["SP"]
+    if pv is None or op is None:
+        return None, [], "PV and OP are needed"
+    said = [_lost(columns[i]) for i in (pv, op, sp) if i is not None and columns[i].bad]
+    y, quality = columns[pv].values, _quality(columns, pv)
+    if quality is not None:
+        y = np.where(quality == 1, y, np.nan)
+        said.append(f"{int(np.sum(quality != 1))} values of bad quality left out.")
+    t_y, y, said_y = _series(axis, pv, y)
+    t_u, u, said_u = _series(axis, op, columns[op].values)
+    said += said_y + [each for each in said_u if each not in said_y]
+    if t_y.size < 3 or t_u.size < 1:
+        return None, said, f"PV has {t_y.size} values and OP {t_u.size}: at least 3 are needed"
+    shared = t_u.shape == t_y.shape and bool(np.array_equal(t_u, t_y))
+    keep, words = without_repeats(t_y, u if shared else None)
+    t_y, y = t_y[keep], y[keep]
+    said += [words] if words else []
+    if shared:
+        t_u, u = t_u[keep], u[keep]
+    else:
+        said.append(f"PV and OP have instants of their own: {t_y.size} and {t_u.size}; OP is held between its own.")
+    if first_is_rubbish(y):
+        said.append(f"The first PV, {y[0]:g}, is far from the next ones: left out.")
+        t_y, y, shared = t_y[1:], y[1:], False
+    begin = float(t_y[0])
+    span = float(t_y[-1] - begin)
+    if abs(begin) > FAR_AWAY * max(span, 1e-9):
+        t_y, t_u = t_y - begin, t_u - begin
+        said.append("Time counts from the first row.")
+    r = None
+    if sp is not None:
+        t_r, r_own, _ = _series(axis, sp, columns[sp].values)
+        shift = begin if abs(begin) > FAR_AWAY * max(span, 1e-9) else 0.0
+        r = _held(t_r - shift, r_own, t_y) if t_r.size else None
+    names = {"y": columns[pv].name, "u": columns[op].name} | ({"r": columns[sp].name} if sp is not None else {})
+    units = {"t": axis.unit, "y": columns[pv].unit, "u": columns[op].unit}
+    if r is None:
+        names.pop("r", None)
+    try:
+        trend = Trend(t_y, y, u, r, None if shared else t_u, names=names, units={k: v for k, v in units.items() if v})
+    except SimcError as error:
+        return None, said, str(error)
+    return trend, [*said, _sampling(trend)], ""
+
+
+def _series(
+    axis: TimeAxis, at: int, values: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], list[str]]:
+    """The values of a signal that there are, in order of time."""
+    order = in_order(axis.of(at), HOUR / UNIT_SECONDS[axis.unit])
+    values = values[order.rows]
+    good = np.isfinite(values)
+    return order.t[good], values[good], order.said
+
+
+def _held(t: NDArray[np.float64], values: NDArray[np.float64], at: NDArray[np.float64]) -> NDArray[np.float64]:
+    return values[np.maximum(np.searchsorted(t, at, "right") - 1, 0)]
+
+
+def _quality(columns: Sequence[Column], pv: int) -> NDArray[np.float64] | None:
+    found = [i for i, each in enumerate(columns) if each.kind == QUALITY]
+    if pv + 1 in found:
+        return columns[pv + 1].values
+    return columns[found[0]].values if len(found) == 1 else None
+
+
+def _lost(column: Column) -> str:
+    at, word = column.first_bad or (0, "")
+    cells = "1 cell is" if column.bad == 1 else f"{column.bad} cells are"
+    return f"{column.name}: {cells} no number and left out, the first in line {at}: {word}."
+
+
+def _sampling(trend: Trend) -> str:
+    steps = np.diff(trend.t)
+    steps = steps[steps > 0]
+    unit = trend.units.get("t", "")
+    usual, low, high = (float(each) for each in (np.median(steps), steps.min(), steps.max()))
+    spread = (
+        f"every {usual:.4g} {unit}"
+        if high - low < 0.01 * usual
+        else f"every {usual:.4g} {unit} as a rule, {low:.3g} to {high:.4g}"
+    )
+    return f"{trend.t.size} samples of PV, {spread}."

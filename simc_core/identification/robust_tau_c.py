@@ -1,0 +1,170 @@
+"""The tau_c for which a whole cloud of plants stays robust: SIMC settings of the estimate, Ms of every plant."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from simc_core import checks
+from simc_core.controllers.forms import IController, IdealPid, SeriesPid
+from simc_core.errors import InvalidParameter, NotIdentifiable
+from simc_core.identification.cloud import Cloud, clouds
+from simc_core.identification.estimator.held_input import Array
+from simc_core.identification.identified import Identified
+from simc_core.rules.simc import simc
+
+LONGEST = 10.0  # times theta, up to which tau_c is tried
+STEPS = 20
+MOST_TAU_C = 100
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MsOfCloud:
+    """Ms of every plant of a cloud against tau_c.
+
+    Parameters
+    ----------
+    tau_c : array, shape (m,)
+    Ms : array, shape (m, n)
+        Of the plants, the estimate first; inf where the loop is not stable.
+    """
+
+    tau_c: Array
+    Ms: Array
+
+    def quantile(self, probability: float) -> Array:
+        """The Ms that is not passed with this probability, shape (m,)."""
+        return np.quantile(self.Ms, probability, axis=1, method="higher")
+
+    def within(self, Ms: float) -> Array:
+        """Probability that Ms stays within a limit, shape (m,)."""
+        return np.mean(self.Ms <= Ms, axis=1)
+
+
+def ms_of_cloud(identified: Identified | Sequence[Identified], tau_c: ArrayLike | None = None) -> MsOfCloud:
+    """Ms against tau_c for all plants that the trend does not tell apart, with the SIMC settings of the estimate.
+
+    Parameters
+    ----------
+    identified : Identified, or several as `identify_all` ranks them
+        Of several, those within 6 of the best criterion count, and the settings are those of the first.
+    tau_c : array, optional
+        Positive times, 1 to 100 of them. None: 20 from theta to 10 theta.
+
+    Returns
+    -------
+    MsOfCloud
+
+    Raises
+    ------
+    InvalidParameter
+        A tau_c that is not a positive time, or a model without a SIMC setting.
+    """
+    found = clouds(identified)
+    best = identified if isinstance(identified, Identified) else identified[0]
+    return _measured(found, best, _times(tau_c, best))
+
+
+def robust_tau_c(identified: Identified | Sequence[Identified], Ms: float = 1.7, probability: float = 0.95) -> float:
+    """The smallest tau_c >= theta with which Ms stays within the limit for nearly all plants of the cloud.
+
+    Parameters
+    ----------
+    identified : Identified, or several as `identify_all` ranks them
+        Of several, all structures that fit nearly as well are in the cloud.
+    Ms : float
+        Limit, 1.05 to 10.
+    probability : float
+        0.5 to 0.999.
+
+    Returns
+    -------
+    float
+        In the time unit of the trend.
+
+    Raises
+    ------
+    NotIdentifiable
+        No tau_c up to 10 theta: the trend says too little to tune on.
+    InvalidParameter
+        A limit outside its bounds.
+
+    Examples
+    --------
+    A trend without noise: the tight tau_c = theta with its Ms of 1.59 is within 1.7.
+
+    >>> import numpy as np
+    >>> from simc_core import Trend, identify, robust_tau_c
+    >>> t = np.arange(0.0, 60.0)
+    >>> y = 10 * np.where(t > 13.5, 1 - np.exp(-(t - 13.5).clip(0) / 8), 0)
+    >>> round(robust_tau_c(identify(Trend(t, y, np.where(t >= 10, 55, 50)))), 3)
+    3.5
+    """
+    Ms = checks.real("Ms", Ms, 1.05, 10.0)
+    probability = checks.real("probability", probability, 0.5, 0.999)
+    found = clouds(identified)
+    best = identified if isinstance(identified, Identified) else identified[0]
+
+    def passed(times: Array) -> NDArray[np.bool_]:
+        return _measured(found, best, times).quantile(probability) <= Ms
+
+    times = _times(None, best)
+    good = np.flatnonzero(passed(times))
+    if good.size == 0:
+        raise NotIdentifiable(
+            f"No tau_c up to {times[-1]:.3g} keeps Ms <= {Ms:g} with {100 * probability:g} %: the trend says too "
+            "little to tune on. Repeat the test with a larger step, or two."
+        )
+    first = int(good[0])
+    if first == 0:
+        return float(times[0])
+    low, high = float(times[first - 1]), float(times[first])
+    for _ in range(8):
+        middle = (low * high) ** 0.5
+        if passed(np.array([middle]))[0]:
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def _times(tau_c: ArrayLike | None, best: Identified) -> Array:
+    if tau_c is not None:
+        found = checks.array("tau_c", tau_c, MOST_TAU_C)
+        if not np.all((found >= 1 / checks.LONGEST_TIME) & (found <= checks.LONGEST_TIME)):
+            raise InvalidParameter(f"tau_c must be positive times, found {found.min():g}")
+        return found
+    theta = best.model.theta
+    if theta < best.standard_errors["theta"]:  # not resolved: what it may be
+        theta = best.standard_errors["theta"]
+    theta = max(theta, 1e-3 * best.plant.slowest, 1e-9)
+    return np.geomspace(theta, LONGEST * theta, STEPS)
+
+
+def _measured(found: list[Cloud], best: Identified, times: Array) -> MsOfCloud:
+    scale = max(best.model.theta, best.standard_errors["theta"], 1e-3 * best.plant.slowest, 1e-9)
+    low = min(1e-5 / scale, 1e-3 / max(best.plant.slowest, scale))
+    omega = np.concatenate([np.geomspace(low, 1e-2 / scale, 60), np.geomspace(1e-2 / scale, 60 / scale, 300)[1:]])
+    responses = [cloud.response(omega) for cloud in found]
+    rows = []
+    for tau_c in times.tolist():
+        controller = simc(best.model, tau_c)
+        C = controller.response(1j * omega)
+        integral = _integral(controller)
+        peaks = [_peaks(cloud, G * C, integral) for cloud, G in zip(found, responses, strict=True)]
+        rows.append(np.concatenate(peaks))
+    return MsOfCloud(times, np.array(rows))
+
+
+def _integral(controller: SeriesPid | IdealPid | IController) -> int:
+    return 1 if isinstance(controller, IController) or np.isfinite(controller.tau_I) else 0
+
+
+def _peaks(cloud: Cloud, L: np.ndarray, integral: int) -> Array:
+    """Ms of each row; inf where the turning of 1 + L shows poles in the right half plane."""
+    difference = 1 + L
+    steps = np.angle(difference[:, 1:] / difference[:, :-1])
+    turned = steps.sum(axis=1) - np.angle(difference[:, -1])  # at the end 1 + L has gone to 1
+    poles = cloud.unstable_poles + (cloud.integrators + integral) / 2 - turned / np.pi
+    return np.where(poles < 0.5, 1 / np.abs(difference).min(axis=1), np.inf)

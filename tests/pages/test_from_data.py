@@ -1,0 +1,221 @@
+"""The page From data: from a record to a model, to its tuning; what cannot be read or fitted is told in words."""
+
+import re
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from pages.common.from_data.examples import EXAMPLES
+from pages.common.from_data.work import USUAL, work_on, work_on_example
+from pages.common.session import links
+from pages.common.session.design import Design, in_time_unit
+from pages.common.session.record import Chosen, Origin
+from simc_core import DataError, FirstOrderDelay, InvalidParameter, Plant
+from tests.pages.tools import address, run_page, texts
+
+TRUTH = {  # what the examples were made with; the page says so to nobody
+    "step": {"k": 1.5, "theta": 12.0, "tau1": 60.0},
+    "noisy": {"k": 0.8, "theta": 20.0, "tau1": 45.0},
+    "integrating": {"k_prime": 0.002, "theta": 16.0},
+    "closed_loop": {"k": 1.5, "theta": 10.0, "tau1": 40.0},
+    "relay": {"k": 1.2, "theta": 15.0, "tau1": 80.0},
+}
+
+
+def html(app) -> str:
+    return " ".join(str(block.proto.body) for block in app.get("html"))
+
+
+def test_without_a_record_the_page_says_what_to_do():
+    app = run_page("from_data")
+    assert "choose an example" in app.info[0].value
+    assert not app.error
+
+
+@pytest.mark.parametrize("key", TRUTH)
+def test_the_process_of_an_example_is_within_the_intervals(key):
+    work = work_on_example(key)
+    chosen = Chosen()
+    best = work.fitted(work.part(chosen), chosen, USUAL).found[0]
+    for name, value in TRUTH[key].items():
+        low, high = best.intervals[name]
+        room = 0.5 * (high - low)  # 95 % intervals of a dozen numbers: one or the other may just miss
+        assert low - room <= value <= high + room, (name, best.intervals[name])
+
+
+def test_a_link_opens_its_example_with_the_model():
+    app = run_page("from_data", example="step")
+    shown = html(app)
+    assert 'aria-label="Parameters of the model' in shown
+    assert re.search(r"<small>k</small><b>1\.5\d*</b> <i>°C/%</i>", shown)
+    assert app.get("plotly_chart")[0].proto.alt.startswith("Record of PV, OP over 699 s")
+
+
+def test_a_link_to_no_example_is_told():
+    app = run_page("from_data", example="nothing")
+    assert "example must be one of" in app.error[0].value
+    assert "example" not in address(app)
+
+
+def test_the_model_goes_to_the_tuning_with_its_units_and_origin():
+    app = run_page("from_data", example="step")
+    app.button(key="tune").click().run()
+    assert not app.exception
+    given = address(app)
+    design, ignored = links.decode(given)
+    assert not ignored
+    assert design.plant.k == pytest.approx(1.5, rel=0.01)
+    assert design.plant.theta == pytest.approx(12, abs=0.4)
+    assert (design.sheet.time_unit, design.sheet.PV_unit, design.sheet.OP_unit) == ("s", "°C", "%")
+    assert design.origin.structure == "FOPDT"
+    assert design.origin.source == EXAMPLES["step"].title
+    assert design.origin.samples == 700
+    assert design.record.example == "step"
+
+
+def test_another_structure_is_chosen_and_stays_in_the_address():
+    app = run_page("from_data", example="step")
+    app.segmented_control(key="structure").set_value("SOPDT").run()
+    assert not app.exception
+    assert address(app)["structure"] == "SOPDT"
+    assert "τ₂" in html(app)
+
+
+def test_a_part_is_fitted_and_both_ways_to_choose_it_agree():
+    app = run_page("from_data", example="step")
+    app.text_input(key="part_end").set_value("350").run()
+    assert address(app)["end"] == "350"
+    assert app.slider(key="part").value == (0.0, 350.0)
+    assert "351 samples" in texts(app)
+    app.slider(key="part").set_range(30.0, 300.0).run()
+    assert float(address(app)["begin"]) == pytest.approx(30, abs=0.5)
+    assert app.text_input(key="part_end").value.startswith("300")
+
+
+def test_a_part_outside_the_record_is_refused_beside_its_field():
+    app = run_page("from_data", example="step")
+    app.text_input(key="part_end").set_value("9999").run()
+    assert "To must be ≤ 699" in app.error[0].value
+    assert "end" not in address(app)
+
+
+def test_a_bad_piece_is_left_out_and_taken_back():
+    app = run_page("from_data", example="step")
+    app.text_input(key="bad_from").set_value("100").run()
+    app.text_input(key="bad_to").set_value("120,5").run()
+    app.button(key="leave_out").click().run()
+    assert address(app)["bad"] == "100.0~120.5"
+    assert "679 samples" in texts(app)  # 100 to 120
+    app.button(key="take_back_0").click().run()
+    assert "bad" not in address(app)
+    assert "700 samples" in texts(app)
+
+
+def test_half_of_a_bad_piece_is_refused():
+    app = run_page("from_data", example="step")
+    app.text_input(key="bad_from").set_value("100").run()
+    app.button(key="leave_out").click().run()
+    assert "both ends are needed" in app.error[0].value
+
+
+def test_a_paste_is_read_and_its_field_is_empty_again():
+    app = run_page("from_data", example="step")
+    rows = "t;PV;OP\n" + "".join(
+        f"{i};{20 + (i > 12) * 0.1 * min(i - 12, 20)};{5 if i < 10 else 9}\n" for i in range(60)
+    )
+    app.text_area(key="trend_paste_0").set_value(rows)
+    next(button for button in app.button if button.label == "Read").click().run()
+    assert not app.exception
+    assert "pasted rows" in texts(app)
+    assert "example" not in address(app)
+    assert app.text_area(key="trend_paste_1").value in ("", None)
+
+
+def test_a_paste_that_is_no_trend_changes_nothing_and_stays():
+    app = run_page("from_data", example="step")
+    app.text_area(key="trend_paste_0").set_value("hello <b>world</b>\n")
+    next(button for button in app.button if button.label == "Read").click().run()
+    assert "nothing changed" in app.error[0].value
+    assert app.text_area(key="trend_paste_0").value == "hello <b>world</b>\n"
+    assert "Parameters of the model" in html(app)
+
+
+def test_roles_can_change_places_and_back():
+    app = run_page("from_data", example="step")
+    app.selectbox(key="reading_PV").set_value("OP").run()
+    assert not app.exception
+    assert app.selectbox(key="reading_OP").value == "PV"
+    app.selectbox(key="reading_PV").set_value("PV").run()
+    assert "700 samples" in texts(app)
+
+
+def test_op_that_never_moves_gives_no_numbers():
+    app = run_page("from_data", example="step")
+    rows = "t;PV;OP\n" + "".join(f"{i};{20 + i % 3};5\n" for i in range(60))
+    app.text_area(key="trend_paste_0").set_value(rows)
+    next(button for button in app.button if button.label == "Read").click().run()
+    assert not app.exception
+    assert "Parameters of the model" not in html(app)
+    assert app.error
+
+
+def test_names_of_columns_are_never_markup():
+    app = run_page("from_data")
+    evil = "[x](//host)"
+    rows = f"t;{evil};OP<img src=x>\n" + "".join(f"{i};{20 + (i > 30)};{5 + (i > 25)}\n" for i in range(60))
+    app.text_area(key="trend_paste_0").set_value(rows)
+    next(button for button in app.button if button.label == "Read").click().run()
+    assert not app.exception
+    for text in (item.value for kind in ("markdown", "caption", "info", "warning", "error") for item in app.get(kind)):
+        outside = re.sub(r"`[^`]*`", "", text)
+        assert "](" not in outside
+        assert "<img" not in outside
+    assert "<img" not in html(app)
+
+
+@pytest.mark.parametrize("unit", ["min", "h", "ms"])
+def test_origin_follows_the_plant_into_another_time_unit(unit):
+    plant = FirstOrderDelay(2.0, 12.0, 60.0).plant
+    origin = Origin(plant, "FOPDT", (0.1, 1.2, 3.0), 0.97, 500, "test.csv")
+    design = in_time_unit(
+        replace(Design(), plant=plant, origin=origin, sheet=replace(Design().sheet, time_unit="s")), unit
+    )
+    per = {"min": Fraction(1, 60), "h": Fraction(1, 3600), "ms": Fraction(1000)}[unit]
+    assert design.origin.plant == design.plant
+    assert design.origin.errors == pytest.approx((0.1, 1.2 * float(per), 3.0 * float(per)))
+    back, ignored = links.decode(links.encode(design))
+    assert not ignored
+    assert back.origin == design.origin
+
+
+def test_origin_ends_with_its_plant():
+    plant = FirstOrderDelay(2.0, 12.0, 60.0).plant
+    design = replace(Design(), plant=plant, origin=Origin(plant, "FOPDT", (0.1, 1.2, 3.0), 0.97, 500))
+    assert replace(design, plant=Plant(1.0, 1.0, (2.0,))).origin is None
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("origin", "FOPDT~0.9~700~0.1~nan~1~x"),
+        ("origin", "FOPDT~0.9"),
+        ("origin", "<b>~1"),
+        ("bad", "1~2~3"),
+        ("bad", "1~x"),
+        ("begin", "inf"),
+        ("structure", "FOPDT2"),
+        ("example", "../../etc"),
+    ],
+)
+def test_what_a_link_says_wrongly_is_ignored_and_told(name, text):
+    design, ignored = links.decode({name: text})
+    assert design == Design()
+    assert [each.name for each in ignored] == [name]
+
+
+def test_bounds_of_what_is_chosen():
+    with pytest.raises(InvalidParameter, match="end must be > begin = 5"):
+        Chosen(begin=5, end=5)
+    with pytest.raises(DataError, match="empty"):
+        work_on("file", b"")
