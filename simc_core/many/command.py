@@ -33,7 +33,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         description="Tune a list of loops. Columns that are understood:\n\n" + meanings(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("list", nargs="?", help="CSV, or a spreadsheet where python-calamine or pandas is installed")
+    parser.add_argument("list", nargs="?", help="CSV, or a spreadsheet")
     parser.add_argument("-o", "--out", default="out", help="folder for results.csv and report.html (out)")
     parser.add_argument("-j", "--jobs", type=int, default=0, help="processes; 0: one a core for long lists")
     parser.add_argument("--variants", type=int, default=0, help="plants with other k, theta, tau1 to try each loop on")

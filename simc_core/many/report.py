@@ -41,16 +41,16 @@ MODEL = {"k": "k", "theta": "θ", "tau1": "τ1", "tau2": "τ2", "a": "a", "tau0"
 def worth(line: Line) -> tuple[int, float]:
     """For sorting lines of results: what it is worth most to retune comes first.
 
-    Loops that are not stable now, then fragile ones, then those that oscillate slowly, then by how many times smaller
-    the load IAE becomes; then loops without present settings, and at last those that were refused.
+    Loops that are not stable now, then fragile ones by their Ms, then those that oscillate slowly, then sound ones,
+    these by how many times smaller the load IAE becomes; then loops without present settings, at last the refused.
     """
     if line["refusal"]:
         return len(TROUBLES) + 1, 0.0
     if not line["now"]:
         return len(TROUBLES), 0.0
     trouble = "" if line["now"] == SOUND else line["now"]
-    ratio = _float(line["load_ratio"])
-    return TROUBLES.index(trouble), 0.0 if math.isnan(ratio) else -ratio
+    size = _float(line["Ms_now" if trouble == "fragile" else "load_ratio"])
+    return TROUBLES.index(trouble), 0.0 if math.isnan(size) else -size
 
 
 def report(lines: Iterable[Line], title: str = "Many loops") -> str:

@@ -59,7 +59,7 @@ class Worker:
         if self._process is None:
             paths = os.pathsep.join(path or os.getcwd() for path in sys.path)
             self._process = subprocess.Popen(
-                [sys.executable, "-m", __name__],
+                [sys.executable, "-c", f"from {__name__} import work; work()"],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 env=os.environ | {"PYTHONPATH": paths, "OPENBLAS_NUM_THREADS": "1"},
@@ -81,7 +81,3 @@ def work() -> None:
             answer = pickle.dumps((False, f"{type(error).__name__}: {error}"))
         answers.write(answer)
         answers.flush()
-
-
-if __name__ == "__main__":
-    work()
