@@ -1,4 +1,4 @@
-"""Many loops in a browser: a file dropped, tuned beside the page, a loop opened on the tuning page, files taken home."""
+"""Many loops in a browser: a file dropped, tuned beside the page, one loop opened in its tuning, files taken home."""
 
 import csv
 import re
