@@ -108,7 +108,7 @@ def tuned(
     choices = {"order": order, "h": h, "tau_c": tau_c, "b": b, "filter": filter, "rules": rules, "speed": speed}
     choices["tau_F"] = tau_F
     choices["rule"] = rule
-    reduction = _reduced(plant, order if rule == "simc" else 1, h, rules, tau_F)
+    reduction = reduced(plant, order if rule == "simc" else 1, h, rules, tau_F)
     try:
         return _closed(plant, choices, reduction)
     except OutOfDomain as error:
@@ -158,6 +158,7 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
     return RuleEnds(f"{why}take PID (order 2): {values}, Ms = {number(other.margins.Ms, 4)}", {"order": 2})
 
 
-@lru_cache(maxsize=16)  # 2 s for a plant of forty poles, and every remedy that is tried asks for the same
-def _reduced(plant: Plant, order: int, h: float, rules: str, tau_F: float) -> Reduction:
+@lru_cache(maxsize=16)  # a second for a plant of forty poles, and every remedy that is tried asks for the same
+def reduced(plant: Plant, order: int, h: float, rules: str, tau_F: float) -> Reduction:
+    """`half_rule`, kept."""
     return half_rule(plant, order, h, rules, tau_F)
