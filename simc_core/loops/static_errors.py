@@ -21,17 +21,17 @@ class StaticErrors:
     Attributes
     ----------
     type : int
-        Power of s in L ~ K/s^type.
+        Of L ~ K/s^type at low frequencies.
     K : float
-        Its gain.
+        Of the same, in 1/(time unit)^type.
     step, ramp, parabola : float
-        r - y after a set point of 1, t, t^2/2, feedback on the error (b = c = 1), in output units.
+        r - y after a set point of 1, t, t^2/2 with b = c = 1, in output units.
     load_step, load_ramp : float
         y after a load of 1, t, in output units.
     IE_setpoint : float
-        Integral of r - y after a unit step of the set point, b and c as they are, in output units times time.
+        int (r - y) after a unit step, b and c as they are, in output units and time.
     IE_load : float
-        Integral of y after a unit step of the load, tau_I/Kc, in output units times time.
+        int y after a unit step of the load, tau_I/Kc, in output units and time.
     """
 
     type: int

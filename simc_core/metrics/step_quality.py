@@ -32,17 +32,17 @@ class StepQuality:
     Attributes
     ----------
     ITSE : float
-        Integral of t e^2, in output units squared times time squared.
+        int t e^2, in output units squared and time squared.
     settling_1, settling_5 : float
-        Time until y stays within 1 %, 5 % of a set-point step, of the peak after a load step.
+        As StepMetrics.settling_time, to 1 % and 5 %.
     arrival : float
-        First time y is at the end value of a set-point step; nan where it never passes it, and for a load step.
+        When y first passes its end after a set-point step; nan where it never does, and after a load.
     decay_ratio : float
-        Second over first peak beyond the end value; nan without a first, 0 without a second.
+        Second peak over the first; nan without overshoot, 0 where there is no second peak.
     period : float
-        From the first of these peaks to the second, nan where there is none.
+        From the first peak to the second, nan where there is none.
     largest_u : float
-        Largest abs(u), jumps included, in input units.
+        Largest abs(u), in input units.
     """
 
     ITSE: float
@@ -56,14 +56,12 @@ class StepQuality:
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """What `step_quality` gives.
+    """Unit step of the set point, and of the disturbance at the plant input.
 
     Attributes
     ----------
-    setpoint : StepQuality
-        Unit step of the set point.
-    disturbance : StepQuality
-        Unit step of the disturbance at the plant input.
+    setpoint, disturbance : StepQuality
+        After either step.
     """
 
     setpoint: StepQuality

@@ -31,16 +31,16 @@ PRECISION = 1e-12  # relative, of a frequency
 
 @dataclass(frozen=True, slots=True)
 class Bandwidth:
-    """How far in frequency a loop reaches; the module docstring defines it. nan where the loop is not stable.
+    """See the module docstring.
 
     Attributes
     ----------
     S : float
-        Bandwidth of S, in rad per time unit; nan where abs(S) is above 1/sqrt 2 from the beginning.
+        In rad per time unit; nan where abs(S) is above 1/sqrt 2 from the beginning.
     T : float
-        Bandwidth of T, in rad per time unit; math.inf where abs(T) never stays below, nan where it is always below.
+        In rad per time unit; math.inf where abs(T) never stays below, nan where it is below from the beginning on.
     KS : float
-        Largest abs(KS), in input units per output unit; math.inf for a derivative without filter.
+        Largest abs(K S), in input units per output unit; math.inf for a derivative without filter.
     omega_KS : float
         Where that is, in rad per time unit.
     """

@@ -31,15 +31,18 @@ def calmer(of: Tuned) -> tuple[Change, str]:
 
 
 def filter_that_costs_little(of: Tuned) -> tuple[Change, float]:
-    """The largest tau_F/tau_D of FILTERS that raises Ms by 10 % at most and not across 2, else the smallest; its Ms."""
+    """The largest tau_F/tau_D of FILTERS that raises Ms by 10 % at most and not across 2, else the smallest; its Ms.
+
+    {} where the smallest one makes the loop fragile that was not.
+    """
     now = of.margins.Ms
     allowed = HARDLY * now if now > LARGEST_MS else min(HARDLY * now, LARGEST_MS)
     change, Ms = {"filter": FILTERS[-1]}, math.nan
     for ratio in FILTERS:
         change, Ms = {"filter": ratio}, of.changed(filter=ratio).margins.Ms
         if Ms <= allowed:
-            break
-    return change, Ms
+            return change, Ms
+    return ({}, Ms) if math.isfinite(now) and not Ms <= max(LARGEST_MS, HARDLY * now) else (change, Ms)
 
 
 def _trials(of: Tuned) -> Iterator[tuple[Change, float]]:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from inspect import signature
 from typing import Any
 
 from simc_core.controllers.forms import Controller
@@ -108,7 +109,7 @@ def tuned(
     choices = {"order": order, "h": h, "tau_c": tau_c, "b": b, "filter": filter, "rules": rules, "speed": speed}
     choices["tau_F"] = tau_F
     choices["rule"] = rule
-    reduction = _reduced(plant, order if rule == "simc" else 1, h, rules, tau_F)
+    reduction = reduced(plant, order if rule == "simc" else 1, h, rules, tau_F)
     try:
         return _closed(plant, choices, reduction)
     except OutOfDomain as error:
@@ -117,6 +118,9 @@ def tuned(
         if isinstance(reduction.model, UnstableDelay):
             raise _no_setting(plant, choices, reduction.model, str(error)) from error
         raise
+
+
+USUAL: dict[str, Any] = {name: each.default for name, each in signature(tuned).parameters.items() if name != "plant"}
 
 
 def _closed(plant: Plant, choices: dict[str, Any], reduction: Reduction) -> Tuned:
@@ -158,6 +162,7 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
     return RuleEnds(f"{why}take PID (order 2): {values}, Ms = {number(other.margins.Ms, 4)}", {"order": 2})
 
 
-@lru_cache(maxsize=16)  # 2 s for a plant of forty poles, and every remedy that is tried asks for the same
-def _reduced(plant: Plant, order: int, h: float, rules: str, tau_F: float) -> Reduction:
+@lru_cache(maxsize=16)  # a second for a plant of forty poles, and every remedy that is tried asks for the same
+def reduced(plant: Plant, order: int, h: float, rules: str, tau_F: float) -> Reduction:
+    """`half_rule`, kept."""
     return half_rule(plant, order, h, rules, tau_F)

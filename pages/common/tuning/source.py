@@ -141,7 +141,7 @@ HELP = {
 def in_the_plant_now(plant: Plant, present: Study | None) -> Study | None:
     """The baseline: fields for it, and its study around this plant; None where none was told."""
     now = state.value("now")
-    with st.expander("In the plant now" if now is None else "In the plant now: compared", expanded=False):
+    with st.expander("In the plant now"):  # always of this name: another one would be closed
         if now is None:
             st.caption("Settings that are in your controller today, to see what a change brings and costs.")
             offered = present.controller if present else FIRST

@@ -9,7 +9,7 @@ from pages.common import live
 from pages.common.parts.copyable import copyable
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
-from pages.common.parts.settings_text import ACTIONS, UNITS, as_text, sizes
+from pages.common.parts.settings_text import ACTIONS, UNITS, as_text, form_shown, sizes
 from pages.common.parts.settings_text import structure as formula
 from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
@@ -18,7 +18,6 @@ from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from pages.common.tuning.source import LABELS, form_control
 from simc_core.controllers.forms import Controller
-from simc_core.errors import FormError
 from simc_core.notation import latex, number
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.rules.simc import default_tau_c
@@ -113,14 +112,12 @@ def structure() -> None:
 
 def settings(study: Study) -> None:
     """The controller in the form chosen, typeset, and as text to copy with all its digits."""
-    form = state.value("form")
+    asked = state.value("form")
     form_control()
-    try:
-        shown = study.controller.in_form(form)
-    except FormError as error:
-        st.info(f"No {form} form: {error}")
-        return
-    sheet = state.design_now().sheet
+    form = form_shown(study.controller, asked)
+    if form != asked:
+        st.caption(f"This controller has no {asked} form: shown in the {form} one.")
+    shown, sheet = study.controller.in_form(form), state.design_now().sheet
     st.markdown(f"$C(s) = {formula(shown, form)}$")
     st.html(settings_html(shown, sheet))
     copyable(as_text(study.controller, form, sheet), "settings_text")

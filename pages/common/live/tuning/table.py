@@ -11,7 +11,7 @@ from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
-from pages.common.parts.settings_text import UNITS, sizes
+from pages.common.parts.settings_text import UNITS, form_shown, sizes
 from pages.common.session.design import Excitation, Tuning
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
@@ -84,22 +84,22 @@ class Grid:
         """What r and d do, for the browser."""
         asked = self.excitation
         return {
-            "r": asked.setpoint,
+            "r": asked.reached,
             "d": asked.disturbance,
             "load": self.load,
-            "r_ramp": asked.setpoint_ramp,
+            "r_ramp": asked.ramp,
             "d_ramp": asked.disturbance_ramp,
         }
 
     @property
     def ramps(self) -> tuple[float, float]:
         """Of r and d."""
-        return self.excitation.setpoint_ramp, self.excitation.disturbance_ramp
+        return self.excitation.ramp, self.excitation.disturbance_ramp
 
     @property
     def heights(self) -> np.ndarray:
         """Of r and d."""
-        return np.array([self.excitation.setpoint, self.excitation.disturbance])
+        return np.array([self.excitation.reached, self.excitation.disturbance])
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,10 +128,9 @@ class Subject:
 
 
 def subject_of(plant: Plant, present: Study, form: str) -> Subject:
-    """The subject of the study; a form that does not exist for this controller gives way to the parallel one."""
-    if not present.controller.has_form(form):
-        form = "parallel"
-    return Subject(plant, present.model, replace(present.tuning, tau_c=None, speed=""), form)
+    """The subject of the study, in a form that its controller has."""
+    shown = form_shown(present.controller, form)
+    return Subject(plant, present.model, replace(present.tuning, tau_c=None, speed=""), shown)
 
 
 def grid_of(subject: Subject, present: Study, excitation: Excitation, shown: float | None = None) -> Grid:
@@ -147,7 +146,7 @@ def grid_around(loop: Loop, curves: Sequence[Factored], excitation: Excitation, 
     begins, wanted = times(loop, excitation.scenario())
     end = kept_end(wanted, shown)
     load, theta = begins if excitation.load_time is not None else begins / wanted * end, loop.plant.theta
-    starts = (0.0, load, excitation.setpoint_ramp, load + excitation.disturbance_ramp)
+    starts = (0.0, load, excitation.ramp, load + excitation.disturbance_ramp)
     breaks = [start + k * theta for start in starts for k in range(JUMPS + 1)]
     t = instants(np.linspace(0.0, end, POINTS + 1), breaks, end)
     return Grid(t, load, omega_grid(curves), excitation)
