@@ -22,7 +22,7 @@ from simc_core.errors import (
 from simc_core.identification.experiments.relay import Relay, relay_from_trend, relay_test
 from simc_core.identification.experiments.retune_oscillation import retune_oscillation
 from simc_core.identification.experiments.setpoint_overshoot import setpoint_overshoot
-from simc_core.identification.graphical import ByHand, by_hand
+from simc_core.identification.graphical import graphical_methods
 from simc_core.identification.identified import Identified
 from simc_core.identification.identify import identify
 from simc_core.identification.moves import find_moves

@@ -6,14 +6,13 @@ import numpy as np
 
 from simc_core.identification.estimator.fit import Fit, continued, fitted
 from simc_core.identification.estimator.held_input import Array
-from simc_core.identification.estimator.records import Record
+from simc_core.identification.estimator.records import OFTEN, Record
 from simc_core.identification.estimator.structures import Structure
 from simc_core.identification.judgement.covariance import covariance, degrees_of_freedom, quantised
 from simc_core.identification.judgement.noise import Noise, noise_of
 
 MARGIN = 2.0  # of the criterion, for each parameter of drift and start
 WORSE = 2.0  # times the deviation, at which what is not plausible is taken after all
-OFTEN = 0.3  # moves of OP for each sample, from where it moves all the time
 BEFORE = 4  # samples before the first move from which an unsettled start can be told
 
 
