@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileManager
 
 from pages.common.from_data.examples import EXAMPLES
 from pages.common.from_data.work import USUAL, work_on, work_on_example
@@ -140,6 +141,24 @@ def test_a_paste_that_is_no_trend_changes_nothing_and_stays():
     assert "nothing changed" in app.error[0].value
     assert app.text_area(key="trend_paste_0").value == "hello <b>world</b>\n"
     assert "Parameters of the model" in html(app)
+
+
+def test_an_uploaded_file_is_read_and_its_memory_given_back(monkeypatch):
+    given_back = []
+    forget = MemoryUploadedFileManager.remove_file
+
+    def remove_file(self, session_id, file_id):
+        forget(self, session_id, file_id)
+        given_back.append(self.get_files(session_id, [file_id]))
+
+    monkeypatch.setattr(MemoryUploadedFileManager, "remove_file", remove_file)
+    app = run_page("from_data")
+    rows = "Zeit [s];PV;OP\n" + "".join(f"{i};{20 + (i > 30)};{5 + (i > 25)}\n" for i in range(60))
+    app.file_uploader(key="trend_file_0").upload("tank.csv", rows.encode("utf-16"), "text/csv").run()
+    assert not app.exception
+    assert given_back == [[]]
+    assert "`tank.csv`" in texts(app)
+    assert "60 samples" in texts(app)
 
 
 def test_roles_can_change_places_and_back():

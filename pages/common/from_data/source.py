@@ -29,6 +29,7 @@ def choose(design: Design) -> Work | None:
     )
     if upload is not None:
         _read(upload.name, upload.getvalue())
+        state.forget_upload(upload)
         state.make_last(TURN, turn + 1)
         st.rerun()
     with st.expander("Paste"), st.form("paste", border=False):
