@@ -39,7 +39,7 @@ def test_without_a_record_the_page_says_what_to_do():
 def test_the_process_of_an_example_is_within_the_intervals(key):
     work = work_on_example(key)
     chosen = Chosen()
-    best = work.fitted(work.part(chosen), chosen, USUAL).found[0]
+    best = work.fitted(work.part(chosen)[0], chosen, USUAL).found[0]
     for name, value in TRUTH[key].items():
         low, high = best.intervals[name]
         room = 0.5 * (high - low)  # 95 % intervals of a dozen numbers: one or the other may just miss
@@ -323,3 +323,12 @@ def test_every_page_tells_where_an_identified_plant_comes_from():
     for page in ("plant", "tuning"):
         told = [item.proto.help for item in run_page(page, **link).caption if item.proto.help]
         assert any("`a*b*.csv`" in text and "fit 97.0 %, 500 samples" in text and "θ 1.2" in text for text in told)
+
+
+def test_a_part_with_nothing_in_it_leaves_the_figure_and_says_so():
+    app = run_page("from_data", example="step", begin="10", end="11")
+    assert "at least 3 samples" in app.error[0].value
+    assert app.get("plotly_chart")
+    app.text_input(key="part_end").set_value("600").run()
+    assert not app.error
+    assert "591 samples" in texts(app)

@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common.from_data.examples import EXAMPLES
+from pages.common.from_data.record_view import BAD_PIECE
 from pages.common.from_data.work import Work, work_on, work_on_example
 from pages.common.parts.foreign_text import exact, told
 from pages.common.session import state
@@ -80,6 +81,7 @@ def _take_example() -> None:
 def _begin_example(key: str) -> None:
     state.make_last(REFUSED, None)
     state.make_last(WORK, work_on_example(key))
+    state.make_last(BAD_PIECE, {})
     state.change(example=key, begin=None, end=None, bad=(), structure="")
 
 
@@ -92,6 +94,7 @@ def _read(name: str, content: bytes | str) -> bool:
         return False
     state.make_last(WORK, work)
     state.make_last(REFUSED, None)
+    state.make_last(BAD_PIECE, {})
     state.change(example="", begin=None, end=None, bad=(), structure="")
     return True
 
