@@ -22,7 +22,7 @@ from simc_core.errors import (
 from simc_core.identification.experiments.relay import Relay, relay_from_trend, relay_test
 from simc_core.identification.experiments.retune_oscillation import retune_oscillation
 from simc_core.identification.experiments.setpoint_overshoot import setpoint_overshoot
-from simc_core.identification.graphical import graphical_methods
+from simc_core.identification.graphical import ByHand, by_hand
 from simc_core.identification.identified import Identified
 from simc_core.identification.identify import identify
 from simc_core.identification.moves import find_moves
@@ -41,6 +41,7 @@ from simc_core.implementation.schedule_table import ScheduleTable
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.loops.static_errors import StaticErrors, static_errors
 from simc_core.many.read_list import LoopList, read_list
 from simc_core.many.result import Judged, Result
 from simc_core.many.run import tune_many
@@ -48,6 +49,7 @@ from simc_core.many.tune_rows import tune_chunk, tune_row
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import Performance, performance
 from simc_core.metrics.step_metrics import StepMetrics
+from simc_core.metrics.step_quality import Quality, StepQuality, step_quality
 from simc_core.numbers import read_number, read_numbers
 from simc_core.optimal.robust_region import gain_intervals, robust_region
 from simc_core.optimal.stability_limit import stability_limit
@@ -69,6 +71,7 @@ from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
+from simc_core.sensitivity.bandwidth import Bandwidth, bandwidth
 from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
@@ -83,9 +86,11 @@ __all__ = [
     "BOXES",
     "RULES",
     "Actuation",
+    "Bandwidth",
     "Box",
     "BoxError",
     "BudgetEntry",
+    "ByHand",
     "Candidate",
     "CascadeDesign",
     "CascadeLoop",
@@ -121,6 +126,7 @@ __all__ = [
     "ParseError",
     "Performance",
     "Plant",
+    "Quality",
     "Reduction",
     "Relay",
     "Result",
@@ -132,8 +138,10 @@ __all__ = [
     "SeriesPid",
     "SimcError",
     "Stability",
+    "StaticErrors",
     "Step",
     "StepMetrics",
+    "StepQuality",
     "Sweep",
     "TimeResponse",
     "Trend",
@@ -142,6 +150,8 @@ __all__ = [
     "UnstableDelay",
     "WrongType",
     "at_equal_robustness",
+    "bandwidth",
+    "by_hand",
     "comparison",
     "count_unstable",
     "crossings",
@@ -153,7 +163,6 @@ __all__ = [
     "frequency_response",
     "from_box",
     "gain_intervals",
-    "graphical_methods",
     "half_rule",
     "identify",
     "identify_all",
@@ -183,6 +192,8 @@ __all__ = [
     "stability",
     "stability_limit",
     "stability_many",
+    "static_errors",
+    "step_quality",
     "sweep",
     "synthesis_cascade",
     "tau_c_presets",

@@ -1,47 +1,66 @@
-"""Graphical methods for one step of OP, to see beside the fit what noise, drift and an unsettled end do to them.
+"""First order with dead time read off one step, as it is done by hand: to compare, and to see what it costs.
 
-| method | what is read | model |
-|---|---|---|
-| two-point [S72] | t28, t63: 28.3 and 63.2 % of the way | tau1 = 1.5 (t63 - t28), theta = t63 - tau1 |
-| tangent [ZN42] | steepest slope R and where it is | theta: the tangent meets the old level; tau1 = change/R |
-| areas [AH95] | A0 = int (y_end - y)/change, A1 = int_0^A0 y/change | tau1 = e A1, theta = A0 - tau1 |
+    two-point   tau1 = 1.5 (t63 - t28), theta = t63 - tau1, from the times at which 28.3 and 63.2 % are reached [S72]
+    tangent     the steepest tangent: theta where it leaves the old level, tau1 until it reaches the new one [ZN42]
+    areas       theta + tau1 = A0/k du, tau1 = e A1/k du, from areas above and below the response [AH95]
+
+All need a response that begins and ends at rest, and take levels and times from noisy samples as they are.
 """
 
-from collections.abc import Mapping
-from math import e
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from simc_core.errors import NotIdentifiable, SimcError
+from simc_core.errors import NotIdentifiable
 from simc_core.identification.moves import Move, find_moves
 from simc_core.identification.trend import Trend, check_trend
 from simc_core.plants.models import FirstOrderDelay
 
-END = 0.1  # share of the record after the step, at its end, of which the new level is the mean
-SMOOTH = 0.25  # share of the time from 28 to 63 % over which a slope is taken
-FEWEST = 10
+LEAST_SAMPLES = 12  # of the response
+AT_REST = 0.1  # of the response: its last part is taken for the new level
+SLOPE_WINDOW = 0.25  # of the time from 28 to 63 %: the tangent is a line through the samples of it
+BEFORE = 20  # samples before the step that give the old level
+FRACTION_28, FRACTION_63 = 1 - np.exp(-1 / 3), 1 - np.exp(-1)
 
 Array = NDArray[np.float64]
 
 
-def graphical_methods(trend: Trend) -> Mapping[str, FirstOrderDelay]:
-    """First-order models read from the first step of OP as one would with a ruler.
+@dataclass(frozen=True, slots=True)
+class ByHand:
+    """What one graphical method gives.
+
+    Attributes
+    ----------
+    method : str
+        "two-point", "tangent" or "areas".
+    model : FirstOrderDelay
+    source : str
+        Key of the publication.
+    """
+
+    method: str
+    model: FirstOrderDelay
+    source: str
+
+
+def by_hand(trend: Trend) -> tuple[ByHand, ...]:
+    """The graphical methods on the move of OP with the longest rest after it.
 
     Parameters
     ----------
     trend : Trend
-        With a level before the step, and a new one before the next step or at the end.
+        With at least one move of OP.
 
     Returns
     -------
-    mapping from str to FirstOrderDelay
-        By "two-point", "tangent", "areas"; a method that gives no model, as theta < 0, is left out.
+    tuple of ByHand
+        Those methods that give a model.
 
     Raises
     ------
     NotIdentifiable
-        OP never moves, fewer than 10 samples show the response, or PV ends where it began.
+        No move of OP, too few samples after it, or no response.
 
     References
     ----------
@@ -49,65 +68,87 @@ def graphical_methods(trend: Trend) -> Mapping[str, FirstOrderDelay]:
 
     Examples
     --------
+    2 e^{-3.5s}/(8s + 1), a step of 5 at t = 10:
+
     >>> import numpy as np
-    >>> from simc_core import Trend, graphical_methods
-    >>> t = np.arange(0.0, 100.0, 0.1)
-    >>> y = 2 * np.where(t > 13, 1 - np.exp(-(t - 13).clip(0) / 8), 0)
-    >>> model = graphical_methods(Trend(t, y, t >= 10))["two-point"]
+    >>> from simc_core import Trend, by_hand
+    >>> t = np.arange(0.0, 90.0, 0.1)
+    >>> y = 10 * np.where(t > 13.5, 1 - np.exp(-(t - 13.5).clip(0) / 8), 0)
+    >>> model = by_hand(Trend(t, y, np.where(t >= 10, 55, 50)))[0].model
     >>> round(model.k, 2), round(model.theta, 1), round(model.tau1, 1)
-    (2.0, 3.0, 8.0)
+    (2.0, 3.5, 8.0)
     """
-    moves = find_moves(check_trend(trend))
+    trend = check_trend(trend)
+    move, t, y, low = _response(trend)
+    high = float(np.mean(y[-max(3, round(AT_REST * y.size)) :]))
+    if high == low:
+        raise NotIdentifiable("PV does not answer the move of OP: there is nothing to read off")
+    z = (y - low) / (high - low)
+    k = (high - low) / move.size
+    found: list[ByHand] = []
+    for method, reading, source in (
+        ("two-point", _two_points(t, z), "S72"),
+        ("tangent", _tangent(t, z), "ZN42"),
+        ("areas", _areas(t, z), "AH95"),
+    ):
+        theta, tau1 = reading
+        if np.isfinite(theta) and tau1 > 0:
+            found.append(ByHand(method, FirstOrderDelay(k, max(theta, 0.0), tau1), source))
+    return tuple(found)
+
+
+def _response(trend: Trend) -> tuple[Move, Array, Array, float]:
+    """The move with the longest rest after it, time since it, PV, and its level before."""
+    moves = find_moves(trend)
     if not moves:
-        raise NotIdentifiable("OP never moves: there is no step to read from")
-    t, share, k = _response(trend, moves[0], moves[1].t if len(moves) > 1 else np.inf)
-    found = {}
-    for name, method in (("two-point", _two_point), ("tangent", _tangent), ("areas", _areas)):
-        theta, tau1 = method(t, share)
-        try:
-            found[name] = FirstOrderDelay(k, theta, tau1)
-        except SimcError:
-            continue
-    return found
+        raise NotIdentifiable("OP never moves: there is no step to read off")
+    ends = [move.t for move in moves[1:]] + [float(trend.t[-1])]
+    rests = [end - move.t for move, end in zip(moves, ends, strict=True)]
+    at = int(np.argmax(rests))
+    move = moves[at]
+    first, last = np.searchsorted(trend.t, move.t, "left"), np.searchsorted(trend.t, ends[at], "left")
+    if last - first < LEAST_SAMPLES:
+        raise NotIdentifiable(f"{last - first} samples after the move of OP are too few: at least {LEAST_SAMPLES}")
+    before = trend.y[max(0, first - BEFORE) : first]
+    level = float(before.mean() if before.size else trend.y[first])
+    return move, trend.t[first:last] - move.t, trend.y[first:last], level
 
 
-def _response(trend: Trend, move: Move, end: float) -> tuple[Array, Array, float]:
-    """Times after the step, PV as a share of its change, and the gain."""
-    after = (trend.t >= move.t) & (trend.t < end)
-    if np.count_nonzero(after) < FEWEST:
-        raise NotIdentifiable(f"At least {FEWEST} samples must follow the step, found {np.count_nonzero(after)}")
-    t, y = trend.t[after] - move.t, trend.y[after]
-    before = trend.y[trend.t < move.t]
-    level = float(before.mean()) if before.size else float(y[0])
-    change = float(y[t >= (1 - END) * t[-1]].mean()) - level
-    if change == 0:
-        raise NotIdentifiable("PV ends where it began: there is no response to read from")
-    return t, (y - level) / change, change / move.size
+def _two_points(t: Array, z: Array) -> tuple[float, float]:
+    first, second = (_reached(t, z, fraction) for fraction in (FRACTION_28, FRACTION_63))
+    tau1 = 1.5 * (second - first)
+    return second - tau1, tau1
 
 
-def _two_point(t: Array, share: Array) -> tuple[float, float]:
-    early, late = _reached(t, share, 1 - e ** (-1 / 3)), _reached(t, share, 1 - 1 / e)
-    tau1 = 1.5 * (late - early)
-    return late - tau1, tau1
+def _reached(t: Array, z: Array, level: float) -> float:
+    """When z first reaches a level, between samples on the line that joins them."""
+    above = np.flatnonzero(z >= level)
+    if above.size == 0 or above[0] == 0:
+        return float("nan")
+    i = int(above[0])
+    return float(t[i - 1] + (t[i] - t[i - 1]) * (level - z[i - 1]) / (z[i] - z[i - 1]))
 
 
-def _reached(t: Array, share: Array, level: float) -> float:
-    """When the share first reaches a level, straight between samples."""
-    i = int(np.argmax(share >= level))
-    return float(np.interp(level, share[i - 1 : i + 1], t[i - 1 : i + 1])) if i else float(t[0])
+def _tangent(t: Array, z: Array) -> tuple[float, float]:
+    rise = _reached(t, z, FRACTION_63) - _reached(t, z, FRACTION_28)
+    if not rise > 0:
+        return float("nan"), 0.0
+    n = max(3, int(np.searchsorted(t, t[0] + SLOPE_WINDOW * rise)))
+    sums = [np.cumsum(np.insert(each, 0, 0.0)) for each in (t, z, t * t, t * z)]
+    st, sz, stt, stz = (each[n:] - each[:-n] for each in sums)
+    slopes = (n * stz - st * sz) / np.maximum(n * stt - st**2, np.finfo(float).tiny)
+    i = int(np.argmax(slopes))
+    best = float(slopes[i])
+    if best <= 0:
+        return float("nan"), 0.0
+    return float(st[i] / n - sz[i] / n / best), 1 / best
 
 
-def _tangent(t: Array, share: Array) -> tuple[float, float]:
-    rising = _reached(t, share, 1 - 1 / e) - _reached(t, share, 1 - e ** (-1 / 3))
-    width = max(int(SMOOTH * rising / (t[-1] - t[0]) * t.size), 1)
-    slope = (share[width:] - share[:-width]) / np.maximum(t[width:] - t[:-width], 1e-300)
-    i = int(np.argmax(slope))
-    middle, level = (t[i] + t[i + width]) / 2, (share[i] + share[i + width]) / 2
-    return float(middle - level / slope[i]), float(1 / slope[i])
-
-
-def _areas(t: Array, share: Array) -> tuple[float, float]:
-    whole = float(np.trapezoid(1 - share, t))
-    inside = np.linspace(0.0, max(whole, 0.0), 2000)
-    tau1 = e * float(np.trapezoid(np.interp(inside, t, share), inside))
-    return whole - tau1, tau1
+def _areas(t: Array, z: Array) -> tuple[float, float]:
+    residence = float(np.trapezoid(1 - z, t))
+    if not 0 < residence < t[-1]:
+        return float("nan"), 0.0
+    inside = t < residence
+    ends = np.append(t[inside], residence), np.append(z[inside], np.interp(residence, t, z))
+    tau1 = float(np.e * np.trapezoid(ends[1], ends[0]))
+    return residence - tau1, tau1

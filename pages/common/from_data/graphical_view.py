@@ -3,43 +3,43 @@
 import streamlit as st
 
 from pages.common.parts.symbols import sentence
-from simc_core import Identified, NotIdentifiable, SimcError, Trend, graphical_methods, half_rule, margins, simc
+from simc_core import Identified, NotIdentifiable, SimcError, Trend, by_hand, half_rule, margins, simc
+from simc_core.identification.graphical import ByHand
 from simc_core.loops.loop import Loop
 from simc_core.notation import number
-from simc_core.plants.models import FirstOrderDelay
 
-CITED = {"two-point": "Smith 1972", "tangent": "Ziegler and Nichols 1942", "areas": "Åström and Hägglund 1995"}
+CITED = {"S72": "Smith 1972", "ZN42": "Ziegler and Nichols 1942", "AH95": "Åström and Hägglund 1995"}
 
 
 def graphical(part: Trend, model: Identified) -> None:
     """Two-point, tangent and areas, and what Ms their settings have on the fitted plant."""
     with st.expander("Read off by hand: two-point, tangent, areas"):
         try:
-            found = graphical_methods(part)
+            found = by_hand(part)
         except NotIdentifiable as error:
             st.caption(sentence(str(error)) + ".")
             return
-        st.dataframe([_row(*each, model) for each in found.items()], hide_index=True, width="stretch", height="content")
+        st.dataframe([_row(each, model) for each in found], hide_index=True, width="stretch", height="content")
         st.caption(
-            "From the first move of OP. Ms: of the PI settings by SIMC with τc = θ of "
+            "From the move of OP with the longest rest after it. Last column: the PI settings by SIMC with τc = θ of "
             "that method, on the plant that was fitted."
         )
 
 
-def _row(method: str, read: FirstOrderDelay, model: Identified) -> dict[str, str]:
+def _row(each: ByHand, model: Identified) -> dict[str, str]:
     return {
-        "method": f"{method} ({CITED[method]})",
-        "k": number(read.k),
-        "θ": number(read.theta),
-        "τ₁": number(read.tau1),
-        "Ms": _Ms(read, model),
+        "method": f"{each.method} ({CITED[each.source]})",
+        "k": number(each.model.k),
+        "θ": number(each.model.theta),
+        "τ₁": number(each.model.tau1),
+        "Ms": _Ms(each, model),
     }
 
 
-def _Ms(read: FirstOrderDelay, model: Identified) -> str:
-    """Of the PI settings of this reading on the plant that was fitted."""
+def _Ms(each: ByHand, model: Identified) -> str:
     try:
-        judged = margins(Loop(model.plant, simc(half_rule(read.plant).model)))
+        reduced = half_rule(each.model.plant).model
+        judged = margins(Loop(model.plant, simc(reduced, each.model.theta or None)))
     except SimcError:
         return "no settings"
     return number(judged.Ms, 3) if judged.stable else "not stable"

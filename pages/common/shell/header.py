@@ -19,8 +19,8 @@ from simc_core.plants.plant import Plant
 GROUPS = {
     "Start": {"home": "Home"},
     "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
-    "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
-    "Use": {"take_home": "Take home"},
+    "Tune": {"tuning": "Tuning", "rules": "Rules", "cascade": "Cascade"},
+    "Use": {"take_home": "Take home", "many": "Many loops"},
     "Learn": {"accuracy": "Accuracy"},
 }
 TITLES = {name: title for group in GROUPS.values() for name, title in group.items()}
@@ -57,7 +57,7 @@ def show(place: str) -> Design:
     with st.sidebar:
         loops_menu()
         sheet_form()
-        _take_along()
+        _take_along(place)
     return design
 
 
@@ -90,17 +90,17 @@ def _notices() -> None:
         st.button("Dismiss", on_click=state.dismiss_ignored)
 
 
-def _take_along() -> None:
+def _take_along(place: str) -> None:
     st.caption("Share link: this page and design")
     copyable(state.address(), "address_text")
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
     upload = st.file_uploader("Open project", type="json", key="project_file", max_upload_size=1)
     if upload is not None:
-        _open(upload)
+        _open(upload, place)
 
 
-def _open(upload) -> None:
+def _open(upload, place: str) -> None:
     """Take the design of a file, once; a wrong file changes nothing and says why."""
     if state.memory("opened", lambda: None) != upload.file_id:
         state.remember("opened", upload.file_id)
@@ -109,7 +109,11 @@ def _open(upload) -> None:
         if loops is not None:
             state.take_loops(loops)
             state.remember("opened", upload.file_id)
+            if place == "home":
+                go("tuning")
             st.rerun()
     why = state.memory("refused", lambda: "")
     if why:
         st.error(f"{exact(upload.name)} was not opened, nothing changed: {told(why)}")
+    else:
+        st.caption(f"Opened: {exact(upload.name)}. Its loops are in the list above.")

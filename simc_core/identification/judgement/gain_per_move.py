@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from simc_core.identification.estimator.fit import Fit, fitted
+from simc_core.identification.estimator.fit import SOME, Fit, fitted
 from simc_core.identification.estimator.held_input import Array, HeldInput, Located
 from simc_core.identification.estimator.levenberg import refined
 from simc_core.identification.estimator.problem import Problem
@@ -63,10 +63,11 @@ def gains_per_move(fit: Fit, share: float, moves: tuple[Move, ...], floor: float
     if sum(abs(move.size) for move in inside) < MAINLY * float(np.abs(record.held.d).sum()):
         return ()  # OP moves all the time
     shape = _split(problem.structure, record.held, inside)
+    records = [record.reduced(SOME)]
     if share < POOR:  # one gain for all did not fit: dead time and lags may be anywhere
-        apart = fitted(shape, problem.records, False, False, floor)
+        apart = fitted(shape, records, False, False, floor)
     else:
-        split = Problem(shape, problem.records, problem.degree > 0, problem.start)
+        split = Problem(shape, records, problem.degree > 0, problem.start)
         apart = Fit(split, refined(split, fit.point.x, 8))
     own = noise_of(apart)
     first = apart.point.x.size
