@@ -332,3 +332,52 @@ def test_a_part_with_nothing_in_it_leaves_the_figure_and_says_so():
     app.text_input(key="part_end").set_value("600").run()
     assert not app.error
     assert "591 samples" in texts(app)
+
+
+def pasted(rows: str):
+    app = run_page("from_data")
+    app.text_area(key="trend_paste_0").set_value(rows)
+    next(button for button in app.button if button.label == "Read").click().run()
+    assert not app.exception
+    return app
+
+
+def test_the_decimal_sign_is_asked_for_where_three_digits_follow_every_comma():
+    rows = "t;PV;OP\n" + "".join(
+        f"{i};1,{200 + 5 * max(0, min(i - 32, 60))};{40 if i < 30 else 45}\n" for i in range(120)
+    )
+    app = pasted(rows)
+    assert any("what is the decimal sign?" in item.value for item in app.caption)
+    small = float(re.search(r"<small>k[^<]*</small><b>([\d.]+)", html(app))[1])
+    app.selectbox(key="reading_decimal").set_value(".").run()
+    assert not app.exception
+    large = float(re.search(r"<small>k[^<]*</small><b>([\d.]+)", html(app))[1])
+    assert large == pytest.approx(1000 * small, rel=0.01)
+
+
+def test_rows_without_time_are_asked_how_far_they_are_apart():
+    rows = "PV;OP\n" + "".join(f"{20 + 0.1 * max(0, min(i - 32, 60)):.1f};{40 if i < 30 else 45}\n" for i in range(120))
+    app = pasted(rows)
+    assert "Parameters of the model" not in html(app)
+    app.text_input(key="period").set_value("0,5").run()
+    assert not app.exception
+    assert "every 0.5" in texts(app)
+    assert "Parameters of the model" in html(app)
+
+
+def test_a_unit_of_time_that_is_not_told_can_be_chosen():
+    rows = "t;PV;OP\n" + "".join(
+        f"{i};{20 + 0.1 * max(0, min(i - 32, 60)):.1f};{40 if i < 30 else 45}\n" for i in range(120)
+    )
+    app = pasted(rows)
+    assert any("unit of time is not told" in item.value for item in app.info)
+    app.selectbox(key="reading_time_unit").set_value("min").run()
+    assert not app.exception
+    app.button(key="tune").click().run()
+    assert address(app)["unit"] == "min"
+
+
+def test_a_link_with_a_rare_structure_opens_it():
+    app = run_page("from_data", example="step", structure="inverse")
+    assert app.segmented_control(key="structure").value == "inverse"
+    assert "<small>T</small>" in html(app)

@@ -31,7 +31,10 @@ def fits_of(work: Work, part: Trend | None, design: Design, why: str) -> Fits:
     """All structures fitted; none, and why, where there is nothing to fit."""
     if part is None:
         return Fits((), why=why)
-    wanted = USUAL + (MORE if state.widget("more_structures") else ())
+    more = state.widget("more_structures") or design.record.structure in MORE
+    wanted = USUAL + (MORE if more else ())
+    if work.is_fitted(design.record, wanted):
+        return work.fitted(part, design.record, wanted)
     with st.spinner("Fitting", show_time=True):
         return work.fitted(part, design.record, wanted)
 

@@ -71,13 +71,21 @@ class Work:
 
     def fitted(self, trend: Trend, chosen: Chosen, structures: tuple[str, ...]) -> Fits:
         """All structures fitted to this part, kept until another part is asked for."""
-        of = (chosen.begin, chosen.end, chosen.bad, structures)
-        if self.fits is None or self.fits.of != of:
+        if self.fits is None or not self.is_fitted(chosen, structures):
+            of = _asked(chosen, structures)
             try:
                 self.fits = Fits(of, identify_all(trend, structures))
             except SimcError as error:
                 self.fits = Fits(of, why=str(error))
         return self.fits
+
+    def is_fitted(self, chosen: Chosen, structures: tuple[str, ...]) -> bool:
+        """Whether this part has been fitted."""
+        return self.fits is not None and self.fits.of == _asked(chosen, structures)
+
+
+def _asked(chosen: Chosen, structures: tuple[str, ...]) -> tuple[Any, ...]:
+    return (chosen.begin, chosen.end, chosen.bad, structures)
 
 
 def _cut(trend: Trend, chosen: Chosen) -> Trend:
