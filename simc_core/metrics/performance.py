@@ -94,16 +94,16 @@ def performance(loop: Loop | CascadeLoop | NestedLoops) -> Performance | NestedP
 def _of_single(loop: Loop) -> Performance:
     verdict = stability(loop)
     if verdict.verdict != "stable":
-        raise NotStable(f"step metrics exist for a stable loop only, got one that is {verdict.verdict}")
+        raise NotStable(f"step metrics exist for a stable loop only, found one that is {verdict.verdict}")
     course = settled(loop)
     if not course.at_rest[0]:
         reached = course.begin[-1] + course.length[-1]
-        raise NotStable(f"the loop must come to rest within {reached:.3g}, got one too close to its stability limit")
+        raise NotStable(f"the loop must come to rest within {reached:.3g}, found one too close to its stability limit")
     right = np.add.reduce(course.coefficients[0], axis=-1)
     offsets, largest = right[:, -1] - (1.0, 0.0), np.maximum.reduce(np.abs(right), axis=1)
     for name, offset, size in zip(("set-point", "load"), offsets.tolist(), largest.tolist(), strict=True):
         if abs(offset) > LARGEST_OFFSET * max(size, 1e-300):
-            raise NotStable(f"IAE needs a loop that settles without offset, got {-offset:.4g} after a {name} step")
+            raise NotStable(f"IAE needs a loop that settles without offset, found {-offset:.4g} after a {name} step")
     found = metrics_of(both_steps(course))
     tails = [_Tail(each, course, source) for source, each in enumerate(found)]
     if not _no_mode_is_slower(loop, max(tail.negligible_rate() for tail in tails)):
