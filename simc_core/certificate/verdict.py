@@ -164,7 +164,7 @@ def stability_many(loops: Sequence[Loop]) -> list[Stability]:
     >>> [each.verdict for each in stability_many(loops)]
     ['stable', 'unstable']
     """
-    return _verdicts([[loop.L] for loop in loops])
+    return count_unstable_many([[loop.L] for loop in loops])
 
 
 def count_unstable(terms: Sequence[Factored]) -> Stability:
@@ -196,11 +196,11 @@ def count_unstable(terms: Sequence[Factored]) -> Stability:
     >>> count_unstable([Loop(Plant(1, 1, integrators=1), SeriesPid(1.58, float("inf"))).L]).unstable_poles
     2
     """
-    return _verdicts([terms])[0]
+    return count_unstable_many([terms])[0]
 
 
-def _verdicts(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
-    """count_unstable of each."""
+def count_unstable_many(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
+    """count_unstable of each, worked on together. Raises InvalidParameter where it does for one of them."""
     loops = [[term for term in terms if term.gain] for terms in loops]
     functions = [characteristic(terms) for terms in loops]
     found: dict[int, Stability] = {}

@@ -18,9 +18,20 @@ from simc_core.loops.loop import Loop
 class StaticErrors:
     """Errors of a stable loop as time goes on; math.inf where they grow without end.
 
-    type, K: of L ~ K/s^type.   step, ramp, parabola: r - y after a set point of 1, t, t^2/2 with b = c = 1.
-    load_step, load_ramp: y after a load of 1, t.   IE_setpoint: int (r - y) after a unit step, b and c as they are.
-    IE_load: int y after a unit step of the load, tau_I/Kc.
+    Attributes
+    ----------
+    type : int
+        Of L ~ K/s^type at low frequencies.
+    K : float
+        Of the same, in 1/(time unit)^type.
+    step, ramp, parabola : float
+        r - y after a set point of 1, t, t^2/2 with b = c = 1, in output units.
+    load_step, load_ramp : float
+        y after a load of 1, t, in output units.
+    IE_setpoint : float
+        int (r - y) after a unit step, b and c as they are, in output units and time.
+    IE_load : float
+        int y after a unit step of the load, tau_I/Kc, in output units and time.
     """
 
     type: int

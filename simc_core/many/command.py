@@ -8,13 +8,12 @@ import os
 import sys
 import time
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from simc_core.errors import SimcError
+from simc_core.many.processes import Processes
 from simc_core.many.read_list import meanings, read_list, template
 from simc_core.many.report import report, summary
 from simc_core.many.results_csv import ResultsFile
@@ -34,7 +33,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         description="Tune a list of loops. Columns that are understood:\n\n" + meanings(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("list", nargs="?", help="CSV, or a spreadsheet where python-calamine or pandas is installed")
+    parser.add_argument("list", nargs="?", help="CSV, or a spreadsheet")
     parser.add_argument("-o", "--out", default="out", help="folder for results.csv and report.html (out)")
     parser.add_argument("-j", "--jobs", type=int, default=0, help="processes; 0: one a core for long lists")
     parser.add_argument("--variants", type=int, default=0, help="plants with other k, theta, tau1 to try each loop on")
@@ -93,9 +92,8 @@ def _jobs(asked: int, rows: int) -> int:
 
 def _tuned(rows: Sequence[Mapping[str, Any]], jobs: int, tune: TuneChunk, file: ResultsFile) -> None:
     """All rows, each written as soon as it is there."""
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # for the processes: threads of theirs would only wait
     with ExitStack() as stack:
-        pool = stack.enter_context(ProcessPoolExecutor(jobs, get_context("spawn"))) if jobs > 1 else None
+        pool = stack.enter_context(Processes(jobs)) if jobs else None
         begun, told = time.monotonic(), 0.0
         for done, result in enumerate(tune_many(rows, pool, tune=tune), 1):
             file.write(result)

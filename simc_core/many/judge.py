@@ -2,32 +2,44 @@
 
 from collections.abc import Sequence
 
-from simc_core.errors import NotStable
+from simc_core.errors import SimcError
 from simc_core.loops.loop import Loop
 from simc_core.many.result import Judged, said
-from simc_core.metrics.performance import performance
-from simc_core.sensitivity.margins import margins
+from simc_core.metrics.performance import Performance, performance_many
+from simc_core.sensitivity.margins import margins_many
 from simc_core.sensitivity.margins_of_response import Margins
+
+Performed = Performance | SimcError
 
 
 def judge(loops: Sequence[Loop]) -> list[Judged | Exception]:
     """Each loop judged; an exception in the place of one that cannot be."""
-    return [_alone(loop) for loop in loops]
+    found = _margins(loops)
+    stable = [i for i, each in enumerate(found) if isinstance(each, Margins) and each.stable]
+    performed = dict(zip(stable, _performance([loops[i] for i in stable]), strict=True))
+    return [
+        each if isinstance(each, Exception) else _judged(loop, each, performed.get(i))
+        for i, (loop, each) in enumerate(zip(loops, found, strict=True))
+    ]
 
 
-def _alone(loop: Loop) -> Judged | Exception:
+def _judged(loop: Loop, found: Margins, performed: Performed | Exception | None) -> Judged:
+    if isinstance(performed, Performance):
+        return Judged(loop.controller, found, performed)
+    why_not = "the loop is not stable" if performed is None else said(performed)
+    return Judged(loop.controller, found, None, why_not)
+
+
+def _margins(loops: Sequence[Loop]) -> list[Margins | Exception]:
+    """Together; where one of them fails, one by one."""
     try:
-        return _with_performance(loop, margins(loop))
+        return list(margins_many(loops))
     except Exception as error:
-        return error
+        return [error] if len(loops) == 1 else [_margins([loop])[0] for loop in loops]
 
 
-def _with_performance(loop: Loop, found: Margins) -> Judged:
-    if not found.stable:
-        return Judged(loop.controller, found, None, "the loop is not stable")
+def _performance(loops: Sequence[Loop]) -> list[Performed | Exception]:
     try:
-        return Judged(loop.controller, found, performance(loop))
-    except NotStable as error:
-        return Judged(loop.controller, found, None, said(error))
-    except ValueError as error:
-        return Judged(loop.controller, found, None, said(error))
+        return list(performance_many(loops))
+    except Exception as error:
+        return [error] if len(loops) == 1 else [_performance([loop])[0] for loop in loops]

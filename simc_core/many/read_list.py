@@ -51,7 +51,7 @@ def read_list(source: str | Path | bytes, most: int = MOST_ROWS) -> LoopList:
     ----------
     source : str, Path or bytes
         A path, or the content of a file: CSV with commas, semicolons or tabs, decimal points or commas, a row of units
-        below the headings or not; a spreadsheet where python-calamine or pandas is installed.
+        below the headings or not; a spreadsheet where python-calamine is installed.
     most : int
         Rows that are taken at most.
 

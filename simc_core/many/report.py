@@ -22,9 +22,9 @@ STYLE = Path(__file__).with_name("report.css").read_text(encoding="utf-8")
 MOST_LINES, MOST_SHEETS = 20_000, 2_000
 WORTH = 1.5  # load IAE now over new, from which it is told
 IN_SUMMARY = {
-    "not stable": "not stable with their present settings",
-    "fragile": f"with Ms above {LARGEST_MS:g} now",
-    "slow oscillation": "that oscillate slowly now",
+    "not stable": "not stable now",
+    "fragile": f"fragile now (Ms above {LARGEST_MS:g})",
+    "slow oscillation": "oscillating slowly now",
 }
 TONES = {"not stable": "alarm", "fragile": "alarm", "slow oscillation": "attention"}
 SETTINGS = {"Kc": "Kc", "tau_I": "τI", "tau_D": "τD", "tau_F": "τF", "K_I": "K_I"}
@@ -41,16 +41,16 @@ MODEL = {"k": "k", "theta": "θ", "tau1": "τ1", "tau2": "τ2", "a": "a", "tau0"
 def worth(line: Line) -> tuple[int, float]:
     """For sorting lines of results: what it is worth most to retune comes first.
 
-    Loops that are not stable now, then fragile ones, then those that oscillate slowly, then by how many times smaller
-    the load IAE becomes; then loops without present settings, and at last those that were refused.
+    Loops that are not stable now, then fragile ones by their Ms, then those that oscillate slowly, then sound ones,
+    these by how many times smaller the load IAE becomes; then loops without present settings, at last the refused.
     """
     if line["refusal"]:
         return len(TROUBLES) + 1, 0.0
     if not line["now"]:
         return len(TROUBLES), 0.0
     trouble = "" if line["now"] == SOUND else line["now"]
-    ratio = _float(line["load_ratio"])
-    return TROUBLES.index(trouble), 0.0 if math.isnan(ratio) else -ratio
+    size = _float(line["Ms_now" if trouble == "fragile" else "load_ratio"])
+    return TROUBLES.index(trouble), 0.0 if math.isnan(size) else -size
 
 
 def report(lines: Iterable[Line], title: str = "Many loops") -> str:

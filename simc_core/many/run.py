@@ -7,18 +7,21 @@ that ends its process is refused.
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor
 from itertools import islice
-from multiprocessing import get_context
 from typing import Any
 
 from simc_core.errors import WrongType
-from simc_core.many.alone import Alone
+from simc_core.many.processes import Processes
 from simc_core.many.result import Result, refused
 from simc_core.many.tune_rows import tune_chunk
+from simc_core.many.worker import Worker, WorkerGone
 
-ROWS = 100  # of a chunk: a fraction of a second
-ON_THEIR_WAY = 16  # chunks given to workers and not yet fetched
+ROWS = 400  # of a chunk: half a second; with fewer, too few loops have the same structure
+ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched
+
+LONGEST = 60.0  # seconds that a row may take when it is alone, the start of its process with it
+ATTEMPTS = 2
 
 Row = Mapping[str, Any]
 TuneChunk = Callable[[Sequence[Row]], list[Result]]
@@ -99,38 +102,27 @@ def _one(tune: TuneChunk, row: Row) -> Result:
 
 def _submitted(chunks: Iterator[list[Row]], executor: Any, tune: TuneChunk) -> Iterator[Result]:
     """Chunks by an executor with `submit`, results in order."""
-    own: ProcessPoolExecutor | None = None
+    own: Processes | None = None
+    alone = Worker()
     waiting: deque[tuple[list[Row], Any]] = deque()
-    with Alone(tune) as alone:
-        try:
-            for rows in chunks:
-                future, own = _submit(rows, executor, own, tune)
-                waiting.append((rows, future))
-                if len(waiting) >= ON_THEIR_WAY:
-                    yield from _fetched(*waiting.popleft(), alone)
-            while waiting:
-                yield from _fetched(*waiting.popleft(), alone)
-        finally:
-            for _, future in waiting:
-                future.cancel()
-            if own is not None:
-                own.shutdown(wait=False, cancel_futures=True)
-
-
-def _submit(rows: list[Row], executor: Any, own: ProcessPoolExecutor | None, tune: TuneChunk) -> tuple[Any, Any]:
-    """A chunk on its way, and the pool of our own that takes the place of a broken one."""
-    if own is None:
-        try:
-            return executor.submit(tune, rows), None
-        except BrokenExecutor:
-            pass
-    else:
-        try:
-            return own.submit(tune, rows), own
-        except BrokenExecutor:
-            own.shutdown(wait=False)
-    own = ProcessPoolExecutor(_workers(executor), get_context("spawn"))
-    return own.submit(tune, rows), own
+    try:
+        for rows in chunks:
+            try:
+                future = (own or executor).submit(tune, rows)
+            except BrokenExecutor:
+                own = Processes(_workers(executor))
+                future = own.submit(tune, rows)
+            waiting.append((rows, future))
+            if len(waiting) >= ON_THEIR_WAY:
+                yield from _fetched(*waiting.popleft(), tune, alone)
+        while waiting:
+            yield from _fetched(*waiting.popleft(), tune, alone)
+    finally:
+        for _, future in waiting:
+            future.cancel()
+        alone.end()
+        if own is not None:
+            own.shutdown()
 
 
 def _workers(executor: Any) -> int:
@@ -138,8 +130,20 @@ def _workers(executor: Any) -> int:
     return getattr(executor, "_max_workers", None) or os.cpu_count() or 1
 
 
-def _fetched(rows: list[Row], future: Any, alone: Alone) -> list[Result]:
+def _fetched(rows: list[Row], future: Any, tune: TuneChunk, alone: Worker) -> list[Result]:
     try:
         return future.result()
     except Exception:  # a process that is gone, or whatever else the executor makes of it
-        return [alone.result(row) for row in rows]
+        return [_alone(row, tune, alone) for row in rows]
+
+
+def _alone(row: Row, tune: TuneChunk, worker: Worker) -> Result:
+    """A row in a process of its own; a refusal where that ends every time: once it may have been ended from outside."""
+    for _ in range(ATTEMPTS):
+        try:
+            return worker.call(tune, [row], LONGEST)[0]
+        except WorkerGone:
+            continue
+        except Exception as error:
+            return refused(row, error)
+    return refused(row, f"its process ended without an answer within {LONGEST:g} s, {ATTEMPTS} times")

@@ -11,6 +11,7 @@ more than limits.MOST_TO_REST elements to come to rest is too close to its stabi
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import overload
 
@@ -18,13 +19,14 @@ import numpy as np
 
 from simc_core.certificate.characteristic import shifted
 from simc_core.certificate.poles import dominant_poles
-from simc_core.certificate.verdict import count_unstable, stability
-from simc_core.errors import InvalidParameter, NotStable
+from simc_core.certificate.verdict import count_unstable_many, stability
+from simc_core.errors import InvalidParameter, NotStable, SimcError
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
 from simc_core.metrics.nested_performance import NestedPerformance, nested_performance
 from simc_core.metrics.step_metrics import StepMetrics, Steps, metrics_of
 from simc_core.simulation.collocation.pieces import ENDS
+from simc_core.simulation.one_delay.march_plants import march_plants
 from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.simulate import settled
 
@@ -91,43 +93,92 @@ def performance(loop: Loop | CascadeLoop | NestedLoops) -> Performance | NestedP
             raise not_a_loop(loop)
 
 
+def performance_many(loops: Sequence[Loop]) -> list[Performance | SimcError]:
+    """Performance of many stable loops, each with its own plant, worked on together where their structure is the same.
+
+    Parameters
+    ----------
+    loops : sequence of Loop, n of them
+        Known to be stable.
+
+    Returns
+    -------
+    list of Performance or SimcError, n of them
+        In the order of `loops`; the error that `performance` raises in the place of a loop that has none.
+    """
+    found: dict[int, Performance | SimcError] = {}
+    forms = [loop.controller.to_parallel() for loop in loops]
+    for which, course in march_plants([loop.plant for loop in loops], forms):
+        some = [loops[i] for i in which]
+        found |= zip(which, [course] if isinstance(course, InvalidParameter) else _measured(some, course), strict=True)
+    return [found[i] for i in range(len(loops))]
+
+
 def _of_single(loop: Loop) -> Performance:
     verdict = stability(loop)
     if verdict.verdict != "stable":
         raise NotStable(f"step metrics exist for a stable loop only, found one that is {verdict.verdict}")
-    course = settled(loop)
-    if not course.at_rest[0]:
-        reached = course.begin[-1] + course.length[-1]
-        raise NotStable(f"the loop must come to rest within {reached:.3g}, found one too close to its stability limit")
-    right = np.add.reduce(course.coefficients[0], axis=-1)
+    (found,) = _measured([loop], settled(loop))
+    if isinstance(found, SimcError):
+        raise found
+    return found
+
+
+def _measured(loops: Sequence[Loop], course: UnitResponses) -> list[Performance | SimcError]:
+    """The metrics of loops whose responses are known, or why there are none."""
+    n, found = len(loops), metrics_of(both_steps(course))
+    refusals = [_refusal(course, i) for i in range(n)]
+    pairs = [(found[i], found[n + i]) for i in range(n)]
+    tails = [[_Tail(each, course, source, i) for source, each in enumerate(pair)] for i, pair in enumerate(pairs)]
+    settled_ = [i for i in range(n) if refusals[i] is None]
+    rates = [max(tail.negligible_rate() for tail in tails[i]) for i in settled_]
+    known = dict(zip(settled_, _no_mode_is_slower([loops[i] for i in settled_], rates), strict=True))
+    result: list[Performance | SimcError] = []
+    for i, refusal in enumerate(refusals):
+        if refusal is not None:
+            result.append(refusal)
+            continue
+        poles = () if known[i] else dominant_poles(loops[i], most=1)
+        result.append(Performance(*([tail.added(poles[0].s) for tail in tails[i]] if poles else pairs[i])))
+    return result
+
+
+def _refusal(course: UnitResponses, i: int) -> NotStable | None:
+    """Why the integrals of a loop diverge, or cannot be known."""
+    last = course.first[i + 1] - 1
+    if not course.at_rest[i]:
+        reached = course.begin[last] + course.length[last]
+        return NotStable(f"the loop must come to rest within {reached:.3g}, found one too close to its stability limit")
+    right = np.add.reduce(course.coefficients[0, :, course.first[i] : last + 1], axis=-1)
     offsets, largest = right[:, -1] - (1.0, 0.0), np.maximum.reduce(np.abs(right), axis=1)
     for name, offset, size in zip(("set-point", "load"), offsets.tolist(), largest.tolist(), strict=True):
         if abs(offset) > LARGEST_OFFSET * max(size, 1e-300):
-            raise NotStable(f"IAE needs a loop that settles without offset, found {-offset:.4g} after a {name} step")
-    found = metrics_of(both_steps(course))
-    tails = [_Tail(each, course, source) for source, each in enumerate(found)]
-    if not _no_mode_is_slower(loop, max(tail.negligible_rate() for tail in tails)):
-        poles = dominant_poles(loop, most=1)
-        if poles:
-            found = tuple(tail.added(poles[0].s) for tail in tails)
-    return Performance(*found)
+            return NotStable(f"IAE needs a loop that settles without offset, found {-offset:.4g} after a {name} step")
+    return None
 
 
-def _no_mode_is_slower(loop: Loop, rate: float) -> bool:
-    """Whether all closed-loop poles lie to the left of -rate, by the certificate."""
+def _no_mode_is_slower(loops: Sequence[Loop], rates: Sequence[float]) -> list[bool]:
+    """Of each loop, whether all its closed-loop poles lie to the left of -rate, by the certificate."""
+    terms = [[shifted(loop.L, -rate)] for loop, rate in zip(loops, rates, strict=True)]
     try:
-        return count_unstable([shifted(loop.L, -rate)]).unstable_poles == 0
-    except InvalidParameter:  # too wild to be counted
-        return False
+        return [found.unstable_poles == 0 for found in count_unstable_many(terms)]
+    except InvalidParameter:  # one of them is too wild to be counted
+        if len(loops) == 1:
+            return [False]
+        return [_no_mode_is_slower([loop], [rate])[0] for loop, rate in zip(loops, rates, strict=True)]
 
 
 class _Tail:
-    """What the integrals miss after the end of a course. source: 0, a step of the set point, or 1, of the load."""
+    """What the integrals of the i-th loop miss after the end of its course.
 
-    def __init__(self, found: StepMetrics, course: UnitResponses, source: int):
-        self.found, self.length = found, float(course.length[-1])
-        self.T = float(course.begin[-1]) + self.length
-        self.left, self.right = (course.coefficients[0, source, -1] @ ENDS.T - (1.0, 0.0)[source]).tolist()
+    source: 0, a step of the set point, or 1, of the load.
+    """
+
+    def __init__(self, found: StepMetrics, course: UnitResponses, source: int, i: int):
+        last = course.first[i + 1] - 1
+        self.found, self.length = found, float(course.length[last])
+        self.T = float(course.begin[last]) + self.length
+        self.left, self.right = (course.coefficients[0, source, last] @ ENDS.T - (1.0, 0.0)[source]).tolist()
         self.rounding = MARCH_ROUNDING * abs(found.peak)
         self.largest = max(abs(self.left), abs(self.right))
 

@@ -29,9 +29,20 @@ AT_NODES = chebyshev.chebvander(NODES, COEFFICIENTS - 1).T
 class StepQuality:
     """For a unit step. Times in the user's unit, from the step on.
 
-    ITSE: output units squared and time squared.   settling_1, settling_5: as settling_time.   arrival: of a set-point
-    step, nan where y never passes its end, and of a load step.   decay_ratio: nan without overshoot, 0 where there is
-    no second peak.   period: from the first peak to the second, nan where there is none.   largest_u: input units.
+    Attributes
+    ----------
+    ITSE : float
+        int t e^2, in output units squared and time squared.
+    settling_1, settling_5 : float
+        As StepMetrics.settling_time, to 1 % and 5 %.
+    arrival : float
+        When y first passes its end after a set-point step; nan where it never does, and after a load.
+    decay_ratio : float
+        Second peak over the first; nan without overshoot, 0 where there is no second peak.
+    period : float
+        From the first peak to the second, nan where there is none.
+    largest_u : float
+        Largest abs(u), in input units.
     """
 
     ITSE: float
@@ -45,7 +56,13 @@ class StepQuality:
 
 @dataclass(frozen=True, slots=True)
 class Quality:
-    """Unit step of the set point, and of the disturbance at the plant input."""
+    """Unit step of the set point, and of the disturbance at the plant input.
+
+    Attributes
+    ----------
+    setpoint, disturbance : StepQuality
+        After either step.
+    """
 
     setpoint: StepQuality
     disturbance: StepQuality

@@ -161,6 +161,9 @@ def _reduce(plant: Plant, parts: Dynamics, removed: _Removed, late: float, rules
     """All candidates, smallest delay first, one of them chosen, and how that one came about."""
     if rules == "1998":
         found = [_at_1998(parts, order, late)]
+    elif not parts.leads:  # nothing depends on the theta that is assumed
+        trial = _at(parts, removed, order, late, 0.0)
+        found = [resolved(trial, trial.theta.at)]
     else:
         found = _self_consistent(lambda theta: _at(parts, removed, order, late, theta), _longest_delay(parts, late))
     models = [model_of(parts, trial) for trial in found]

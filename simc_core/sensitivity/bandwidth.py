@@ -31,11 +31,18 @@ PRECISION = 1e-12  # relative, of a frequency
 
 @dataclass(frozen=True, slots=True)
 class Bandwidth:
-    """See the module docstring. S, T, omega_KS in rad per time unit.
+    """See the module docstring.
 
-    S: nan where |S| is above 1/sqrt 2 from the beginning.   T: math.inf where |T| never stays below, nan where it is
-    below from the beginning on.   KS: largest |KS|, input units per output unit, math.inf for a derivative without
-    filter.
+    Attributes
+    ----------
+    S : float
+        In rad per time unit; nan where abs(S) is above 1/sqrt 2 from the beginning.
+    T : float
+        In rad per time unit; math.inf where abs(T) never stays below, nan where it is below from the beginning on.
+    KS : float
+        Largest abs(K S), in input units per output unit; math.inf for a derivative without filter.
+    omega_KS : float
+        Where that is, in rad per time unit.
     """
 
     S: float

@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 
 from tests.browser.tools import Server, idle
 
-PAGES = ("", "plant", "from_data", "half_rule", "tuning", "cascade", "take_home", "accuracy")
+PAGES = ("", "plant", "from_data", "half_rule", "tuning", "cascade", "take_home", "many", "accuracy")
 
 
 def test_every_page_and_every_tab_works_under_the_policy(server, open_page):
@@ -18,7 +18,7 @@ def test_every_page_and_every_tab_works_under_the_policy(server, open_page):
     for path in PAGES:
         page.goto(f"{server}/{path}")
         idle(page)
-        if path not in ("", "take_home", "accuracy"):
+        if path not in ("", "take_home", "many", "accuracy"):
             expect(page.locator(".js-plotly-plot:visible, .live:visible").first).to_be_visible()
         for tab in page.get_by_role("tab").all():
             tab.click()

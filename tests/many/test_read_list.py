@@ -1,14 +1,11 @@
 """Lists as people keep them."""
 
-import sys
-from types import SimpleNamespace
-
 import pytest
 
 from simc_core import read_list, tune_chunk
 from simc_core.errors import InvalidParameter
-from simc_core.many import cells
 from simc_core.many.read_list import EXAMPLES, template
+from tests.identification.test_reading import workbook
 
 
 def rows(text: str, coding: str = "utf-8") -> list[dict]:
@@ -103,21 +100,6 @@ def test_too_many_rows():
         read_list(b"k,theta,tau1\n1,1,1\n1,1,1\n1,1,1\n", most=2)
 
 
-def test_a_spreadsheet_without_a_reader_says_what_to_do(monkeypatch):
-    monkeypatch.setattr(cells.importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(InvalidParameter, match="save the sheet as CSV"):
-        read_list(b"PK\x03\x04 and so on")
-
-
-def test_a_spreadsheet_by_calamine(monkeypatch):
-    """A reader that gives what calamine gives: numbers as floats, empty cells as empty text."""
-    sheet = SimpleNamespace(to_python=lambda: [["tag", "k", "theta", "tau1"], ["A", 1.5, 2.0, 8.0], ["", "", "", ""]])
-    book = SimpleNamespace(get_sheet_by_index=lambda i: sheet)
-    reader = SimpleNamespace(CalamineWorkbook=SimpleNamespace(from_filelike=lambda file: book))
-    monkeypatch.setattr(cells.importlib.util, "find_spec", lambda name: True)
-    monkeypatch.setitem(sys.modules, cells.CALAMINE, reader)
-    assert rows_of(b"PK\x03\x04") == [{"row": 2, "tag": "A", "k": "1.5", "theta": "2", "tau1": "8"}]
-
-
-def rows_of(content: bytes) -> list[dict]:
-    return read_list(content).rows
+def test_a_spreadsheet():
+    cells = [["tag", "k", "theta", "tau1"], ["A", 1.5, 2, 8.0]]
+    assert read_list(workbook(cells)).rows == [{"row": 2, "tag": "A", "k": "1.5", "theta": "2", "tau1": "8"}]

@@ -50,15 +50,35 @@ def test_integral_errors_of_a_published_example():
         assert number == value.approx(i)
 
 
-def test_rows_are_the_functions_called_one_by_one():
-    """300 rows with 10 bad ones among them: each the same as the model, simc, margins and performance alone."""
+def test_rows_together_are_the_rows_one_by_one():
+    """300 rows with 10 bad ones among them: to 1e-12; ITAE, in which rounding at a late end counts, to 1e-9.
+
+    An unstable plant lets the rounding of one element grow on the next: there 1e-9, and ITAE 1e-8.
+    """
     rows, bad = mixed_rows(300, 10)
-    results = tune_chunk(rows)
-    assert [result.tag for result in results] == [f"L{i}" for i in range(300)]
-    for i, (row, result) in enumerate(zip(rows, results, strict=True)):
+    together = tune_chunk(rows)
+    assert [result.tag for result in together] == [f"L{i}" for i in range(300)]
+    for i, (row, result) in enumerate(zip(rows, together, strict=True)):
+        alone = tune_row(row)
+        assert result.refusal == alone.refusal
+        assert result.advice == alone.advice
+        assert bool(result.refusal) >= (i in bad)
+        if not result.refusal:
+            assert result.controller == alone.controller
+            assert_same(alone.margins, result.margins)
+            assert (result.performance is None) == (alone.performance is None)
+        if result.performance:
+            rel, ITAE = (1e-9, 1e-8) if result.plant.unstable_poles else (1e-12, 1e-9)
+            assert_same(alone.performance.setpoint, result.performance.setpoint, rel, ITAE=ITAE)
+            assert_same(alone.performance.disturbance, result.performance.disturbance, rel, ITAE=ITAE)
+
+
+def test_rows_are_the_functions_called_one_by_one():
+    """Model, simc, margins, performance: margins to 1e-12, integrals to the 1e-6 to which they are known."""
+    rows, bad = mixed_rows(100, 5, seed=4)
+    for i, (row, result) in enumerate(zip(rows, tune_chunk(rows), strict=True)):
         if i in bad:
             assert result.refusal
-            assert result.controller is None
             continue
         plant, order = read_request(row).plant, 2 if row["kind"] == "PID" else 1
         if result.refusal:
@@ -67,29 +87,32 @@ def test_rows_are_the_functions_called_one_by_one():
             assert str(refusal.value) == result.refusal
             continue
         loop = Loop(plant, simc(reduced_model(plant, order)))
-        expected = margins(loop)
         assert result.controller == loop.controller
-        same(expected, result.margins)
+        assert_same(margins(loop), result.margins)
         if result.performance:
             alone = performance(loop)
-            same(alone.setpoint, result.performance.setpoint)
-            same(alone.disturbance, result.performance.disturbance)
+            for one, other in (
+                (alone.setpoint, result.performance.setpoint),
+                (alone.disturbance, result.performance.disturbance),
+            ):
+                assert_same(one, other, rel=1e-6)
         else:
             with pytest.raises(SimcError):
                 performance(loop)
             assert [each for each in result.advice if each.quantity in ("Not stable", "No IAE")]
 
 
+def assert_same(alone, found, rel: float = 1e-12, **other: float) -> None:
+    """Two records of numbers agree."""
+    for name in type(alone).__slots__:
+        expected = pytest.approx(getattr(alone, name), rel=other.get(name, rel), abs=1e-300, nan_ok=True)
+        assert getattr(found, name) == expected, name
+
+
 def test_the_model_alone_is_that_of_the_half_rule():
     for i, (_, plant) in enumerate(random_plants(60, seed=8)):
         order = 1 + i % 2
         assert reduced_model(plant, order) == half_rule(plant, order).model
-
-
-def same(alone, found) -> None:
-    """Two records of numbers agree to 1e-12."""
-    for name in type(alone).__slots__:
-        assert getattr(found, name) == pytest.approx(getattr(alone, name), rel=1e-12, nan_ok=True), name
 
 
 @pytest.mark.parametrize(
@@ -150,7 +173,7 @@ def test_another_rule():
 
 def test_an_Ms_asked_for_is_met():
     found = tune_row({"k": 1, "theta": 1, "tau1": 8, "Ms": 1.4}).margins
-    assert max(found.Ms, found.Mt) == pytest.approx(1.4, rel=1e-8)
+    assert max(found.Ms, found.Mt) == pytest.approx(1.4, rel=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Executors: the same results from all of them, and no row lost by a process that is gone."""
 
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from functools import partial
 from itertools import count, islice
 from multiprocessing import get_context
 
@@ -8,6 +9,7 @@ import pytest
 
 from simc_core import tune_many
 from simc_core.errors import WrongType
+from simc_core.many.processes import Processes
 from tests.many.lists import mixed_rows
 from tests.many.workers import ends_its_process, fails_together, killed_once
 
@@ -55,9 +57,12 @@ def test_all_executors_give_the_same():
         assert told(tune_many(rows, threads, chunk=7)) == here
     with pool() as processes:
         assert told(tune_many(rows, processes, chunk=7)) == here
+    with Processes(1) as processes:
+        assert told(tune_many(rows, processes, chunk=7)) == here
 
 
-def test_a_row_that_ends_its_process_is_refused_alone():
+@pytest.mark.parametrize("pool", [pool, partial(Processes, 1)])
+def test_a_row_that_ends_its_process_is_refused_alone(pool):
     rows = [{"tag": f"L{i}", **ROW} for i in range(30)]
     rows[12]["tag"] = "deadly"
     with pool() as processes:
@@ -67,7 +72,8 @@ def test_a_row_that_ends_its_process_is_refused_alone():
     assert "process ended" in results[12].refusal
 
 
-def test_a_worker_that_is_killed_loses_no_row(tmp_path):
+@pytest.mark.parametrize("pool", [pool, partial(Processes, 1)])
+def test_a_worker_that_is_killed_loses_no_row(tmp_path, pool):
     rows = [{"tag": f"L{i}", **ROW} for i in range(30)]
     rows[17]["kill"] = str(tmp_path / "killed")
     with pool() as processes:

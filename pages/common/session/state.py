@@ -77,6 +77,12 @@ def begin_loop(plant: Plant, mine: bool) -> None:
     _first_seen()[loops().entries[loops().current].id] = Design() if mine else fresh
 
 
+def add_loop(design: Design) -> None:
+    """Another loop of the list, in use from now on, which is kept. Raises InvalidParameter where the list is full."""
+    take_loops(loops().added(design))
+    _first_seen()[loops().entries[loops().current].id] = Design()
+
+
 def _first_seen() -> dict[str, Design]:
     """Each loop as this session first had it."""
     return st.session_state.setdefault("first_seen", {})

@@ -20,7 +20,7 @@ GROUPS = {
     "Start": {"home": "Home"},
     "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
     "Tune": {"tuning": "Tuning", "rules": "Rules", "cascade": "Cascade"},
-    "Use": {"take_home": "Take home"},
+    "Use": {"take_home": "Take home", "many": "Many loops"},
     "Learn": {"accuracy": "Accuracy"},
 }
 TITLES = {name: title for group in GROUPS.values() for name, title in group.items()}

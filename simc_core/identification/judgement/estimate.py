@@ -4,16 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.identification.estimator.fit import Fit, continued, fitted
+from simc_core.identification.estimator.fit import Fit, continued, fitted, polished
 from simc_core.identification.estimator.held_input import Array
-from simc_core.identification.estimator.records import Record
+from simc_core.identification.estimator.records import OFTEN, Record
 from simc_core.identification.estimator.structures import Structure
 from simc_core.identification.judgement.covariance import covariance, degrees_of_freedom, quantised
 from simc_core.identification.judgement.noise import Noise, noise_of
 
 MARGIN = 2.0  # of the criterion, for each parameter of drift and start
 WORSE = 2.0  # times the deviation, at which what is not plausible is taken after all
-OFTEN = 0.3  # moves of OP for each sample, from where it moves all the time
 BEFORE = 4  # samples before the first move from which an unsettled start can be told
 
 
@@ -66,14 +65,12 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
     drifts = [True] if structure.integrating else [drift] if drift is not None else [True, False]
     begun = all(_start_shows(record) for record in records)
     startable = begun and not structure.always_free and bool(structure.lags)
-    begins = [True, False] if startable else [False]
-    first = fitted(structure, records, drifts[0], begins[-1], floor)
-    fits = {(drifts[0], begins[-1]): first}
-    for one in drifts:
-        for other in begins:
-            if (one, other) not in fits:
-                near = [fit.point.x for fit in fits.values()]
-                fits[one, other] = continued(structure, first.problem.records, one, other, floor, near)
+    # searched for with drift and without: what drift makes of a poor structure is no place to begin from
+    fits = {(one, False): fitted(structure, records, one, False, floor) for one in drifts}
+    near = [fit.point.x for fit in fits.values()]
+    if startable:
+        for one, alone in [(key[0], fit) for key, fit in fits.items()]:
+            fits[one, True] = continued(structure, alone.problem.records, one, True, floor, near)
     return _weighed(fits, floor, step)
 
 
@@ -95,7 +92,8 @@ def _weighed(fits: dict[tuple[bool, bool], Fit], floor: float, step: float) -> E
     soft = {key: loss[key] + 2 * fit.free for key, fit in fits.items()}
     least = min(soft.values())
     weight = {key: float(np.exp(-(value - least) / 2)) for key, value in soft.items()}
-    fit, noise = fits[chosen], noises[chosen]
+    fit = fits[chosen] = polished(fits[chosen])
+    noise = noises[chosen] = noise_of(fit)
     values = _values(fit)
     spread, total = np.zeros((values.size, values.size)), 0.0
     for key, other in fits.items():

@@ -1,4 +1,4 @@
-"""The loop on one element: everything that differs between tunings of a plant, as one constant matrix for each.
+"""The loop on one element: everything that differs between tunings, as one constant matrix for each.
 
     z = u + d,   u = f(t) + xi - Kp p - Kd p' - Ki int p        xi: the integral at the start of the element
     f = Kp b rF + Ki int rF + Kd c rF'                          rF: the step of r through the filter,
@@ -42,14 +42,20 @@ class OnLevel(NamedTuple):
 
 
 class ClosedElements:
-    """The controllers of n tunings with one tau_F, and what each level needs of them, made when it is needed."""
+    """The controllers of n tunings, and what each level needs of them, made when it is needed.
 
-    def __init__(self, forms: Sequence[ParallelPid], levels: ElementSizes):
-        self.levels, self.tau_F = levels, forms[0].tau_F
+    One plant for all of them, and one tau_F; or as many plants as tunings. units: of time, one a plant.
+    """
+
+    def __init__(self, forms: Sequence[ParallelPid], levels: ElementSizes, units: np.ndarray):
+        self.levels = levels
+        self.filtered, self.tau_F = levels.chain.filtered, levels.chain.tau_F[:, None]
         values = np.array([(form.Kp, form.Kd, form.Ki, form.Kp * form.b, form.Kd * form.c) for form in forms])
+        values[:, [1, 4]] /= units[:, None]
+        values[:, 2] *= units
         self.gains = values[:, : SIGNALS - 1]
         self.Ki, self.ahead, self.kick = values[:, 2:3], values[:, 3:4], values[:, 4:]
-        self.size = levels.chain.n + 3 + (self.tau_F > 0)  # of x
+        self.size = levels.chain.n + 3 + self.filtered  # of x
         self._made: dict[int, OnLevel] = {}
 
     def start(self) -> np.ndarray:
@@ -75,16 +81,17 @@ class ClosedElements:
         begin = END - P  # from the column to the row of each
         nodes, Ki, tau_F = elements.nodes[:, None], self.Ki, self.tau_F
         G = np.zeros((L, n, END + self.size, P + self.size))
-        y, fed_back = elements.signals[0], self.gains @ elements.signals[1:].reshape(SIGNALS - 1, -1)
-        G[:, :, Y, :own] = y[:, None]
-        G[:, :, Z, :own] = -fed_back.reshape(n, L, P, own).swapaxes(0, 1)
+        y, ends = elements.signals[0].swapaxes(0, 1), elements.ends.swapaxes(0, 1)  # (L, plants, ...)
+        integral = elements.signals[3, :, :, -1].swapaxes(0, 1)
+        G[:, :, Y, :own] = y
+        G[:, :, Z, :own] = -self._fed_back(elements).swapaxes(0, 1)
         G[:, :, Z, xi] = G[:, :, Z, d] = 1.0
         G[:, :, Z, r] = self.ahead + Ki * nodes
-        G[:, :, END : begin + own, :own] = elements.ends[:, None]
-        G[:, :, begin + xi, :own] = -Ki * elements.signals[3][:, None, -1]
+        G[:, :, END : begin + own, :own] = ends
+        G[:, :, begin + xi, :own] = -Ki * integral
         G[:, :, begin + xi, r] = Ki[:, 0] * elements.length[:, None]
         G[:, :, begin + xi, xi] = G[:, :, begin + r, r] = G[:, :, begin + d, d] = 1.0
-        if tau_F:
+        if self.filtered:
             late, risen = np.exp(nodes / -tau_F), -np.expm1(nodes / -tau_F)  # risen: 1 - late, without cancellation
             slope, gained = self.kick / tau_F * late, Ki * tau_F * risen
             G[:, :, Z, r] = self.ahead * risen + slope + Ki * nodes - gained
@@ -95,3 +102,11 @@ class ClosedElements:
         spectra = SPECTRUM @ G[:, :, : 2 * P].reshape(L, n, 2, P, -1)
         G[:, :, 2 * P : END] = spectra.reshape(L, n, 2, 2, 2, -1).swapaxes(2, 3).reshape(L, n, 8, -1)
         return G
+
+    def _fed_back(self, elements: Elements) -> np.ndarray:
+        """Kp p + Kd p' + Ki int p at the nodes, (n, L, P, own)."""
+        n, measured = len(self.gains), elements.signals[1:]
+        if measured.shape[1] == 1:
+            return (self.gains @ measured.reshape(SIGNALS - 1, -1)).reshape(n, *measured.shape[2:])
+        weights = self.gains.T[:, :, None, None, None]
+        return weights[0] * measured[0] + weights[1] * measured[1] + weights[2] * measured[2]

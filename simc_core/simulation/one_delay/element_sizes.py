@@ -16,15 +16,15 @@ from simc_core.simulation.collocation.elements import NODES, TO_CHEBYSHEV, mesh
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.one_delay.process_maps import ProcessMaps
 
-AHEAD, MORE = 8, 4  # levels made at once: at first, and when these do not reach
+AHEAD, MORE = 8, 4  # levels made at once of one plant: at first, and when these do not reach; of several as needed
 EYE = np.eye(P)
 
 
 class Elements(NamedTuple):
     """L levels made together. length (L,), nodes (L, P): from the start of the element.
 
-    B: (L, P, P), its own z at t - theta.   signals: (4, L, P, P + n), w and the states at the start -> y, p, p', int p
-    at the nodes.   ends: (L, n, P + n), -> states at the end.
+    B: (L, P, P), its own z at t - theta.   signals: (4, m, L, P, P + n), w and the states at the start -> y, p, p',
+    int p at the nodes, of each plant.   ends: (m, L, n, P + n), -> states at the end.
     """
 
     levels: tuple[int, ...]
@@ -36,26 +36,27 @@ class Elements(NamedTuple):
 
 
 class ElementSizes:
-    """Of one plant behind one filter. mesh: levels of the elements of one interval, short at its start.
+    """Of plants of one structure, each behind its filter. mesh: levels of the elements of one interval.
 
-    finer: how often these are halved.
+    parts: lengths of these in units of theta, short at its start.   finer: how often they are halved.
     """
 
-    def __init__(self, chain: ProcessMaps, finer: int):
+    def __init__(self, chain: ProcessMaps, parts: tuple[float, ...], finer: int = 0):
         self.chain, self.theta = chain, chain.theta
         size = np.abs(chain.modes)
         self.unit = chain.theta or float(1 / np.max(size) if size.any() else 1.0)
         self._made: dict[int, Elements] = {}
         self._known: dict[tuple[int, int], np.ndarray] = {}
-        parts = (mesh(chain.modes, chain.theta) / chain.theta).tolist() if chain.theta else []
         self.shape = tuple(part / 2**finer for part in parts for _ in range(2**finer))
         self.mesh = tuple(round(math.log2(part)) for part in self.shape)
-        self._make(sorted({*self.mesh, *range(1, 1 + AHEAD)}))
+        self.alone = chain.count == 1
+        self._make(sorted({*self.mesh, *(range(1, 1 + AHEAD) if self.alone or not self.mesh else ())}))
 
     def __getitem__(self, level: int) -> Elements:
         """The elements that hold this level."""
         if level not in self._made:
-            self._make([each for each in range(level, level + MORE) if each not in self._made])
+            more = range(level, level + (MORE if self.alone else 1))
+            self._make([each for each in more if each not in self._made])
         return self._made[level]
 
     def length(self, level: int) -> float:
@@ -85,7 +86,13 @@ class ElementSizes:
 @lru_cache(maxsize=64)
 def levels(plant: Plant, tau_F: float, derivative: bool, finer: int = 0) -> ElementSizes:
     """Raises InvalidParameter as ProcessMaps does."""
-    return ElementSizes(ProcessMaps(plant, tau_F, derivative), finer)
+    chain = ProcessMaps([plant], [tau_F], derivative, [1.0])
+    return ElementSizes(chain, shape(chain.modes, chain.theta), finer)
+
+
+def shape(modes: np.ndarray, theta: float) -> tuple[float, ...]:
+    """Lengths of the elements of one interval in units of theta; none without dead time."""
+    return tuple((mesh(modes, theta) / theta).tolist()) if theta else ()
 
 
 @lru_cache(maxsize=128)

@@ -32,7 +32,7 @@ from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.one_delay.closed_element import END, PARTS, ClosedElements, Z
-from simc_core.simulation.one_delay.element_sizes import levels
+from simc_core.simulation.one_delay.element_sizes import ElementSizes, levels
 from simc_core.simulation.one_delay.limits import (
     LIKELY,
     LOOK,
@@ -48,6 +48,7 @@ from simc_core.simulation.one_delay.step_control import GONE, REST, TAIL, StepCo
 from simc_core.simulation.one_delay.unit_responses import Batch, UnitResponses, course
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
+MOST_INTERVALS = 3 * SMOOTH  # of theta that are stepped over first
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 CUT_OFF = 1e150  # an unstable response is cut off here
 
@@ -63,11 +64,13 @@ def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most:
     Raises InvalidParameter: derivative action without filter where y or r may jump; an ill-posed loop without dead
     time; a t_end that needs more than MOST_TO_END elements.
     """
-    _check(plant, forms)
+    check(plant, forms)
     most = most or (MOST_TO_REST if t_end is None else MOST_OF_ALL)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for finer in range(FINEST + 1):
-            marching = _March(plant, forms, t_end, finer, most)
+            derivative = any(form.Kd for form in forms)
+            sizes = levels(plant, forms[0].tau_F, derivative, finer)
+            marching = March([plant], forms, np.ones(1), sizes, t_end, most, finer == FINEST)
             if marching.arrives():
                 break
     return course(marching.batches, [control.at_rest for control in marching.controls[: marching.n_left]])
@@ -83,7 +86,8 @@ def final_values(plant: Plant, form: ParallelPid) -> np.ndarray:
     return np.array([[form.b * (1 - S), plant.k * S], [form.b * form.Kp * S, S - 1]])
 
 
-def _check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
+def check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
+    """Raises InvalidParameter where `march` does before it begins."""
     for form in forms:
         if form.Kd and form.c and not form.tau_F:
             raise InvalidParameter(needs_filter("on a set-point step (c > 0)"))
@@ -97,17 +101,26 @@ class _TooCoarse(Exception):
     """Echoes of a neutral loop have become rougher than the modes of the plant, which the mesh was made for."""
 
 
-class _March:
+class March:
     """State of the march: x (n, size, 2) as in closed_element.py, z at the nodes of the step before,
     the step control of each tuning.
 
     A step is some intervals or one element: what G makes of (w, x), one array (k, END + size, 2) for each element.
     """
 
-    def __init__(self, plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, finer: int, most: float):
-        self.proportional, self.derivative = any(form.Kp for form in forms), any(form.Kd for form in forms)
-        self.levels = levels(plant, forms[0].tau_F, self.derivative, finer)
-        self.count = self._count(plant.theta, t_end)
+    def __init__(
+        self,
+        plants: Sequence[Plant],
+        forms: Sequence[ParallelPid],
+        units: np.ndarray,
+        sizes: ElementSizes,
+        t_end: float | None,
+        most: float,
+        finest: bool,
+    ):
+        self.proportional, self.derivative = any(form.Kp for form in forms), sizes.chain.derivative
+        self.levels = sizes
+        self.count = self._count(sizes.theta, t_end)
         at_first = self.count * len(self.levels.mesh)
         if at_first > MOST_TO_END:
             raise InvalidParameter(
@@ -116,16 +129,15 @@ class _March:
             )
         forms = forms[: together(at_first)]
         n = self.n_left = len(forms)
-        self.plant, self.forms = plant, forms
+        self.plants, self.forms, self.units = plants, forms, units
         self.most, self.on_average = (most if t_end is None else MOST_TO_END), most
-        self.closed = ClosedElements(forms, self.levels)
-        self.coarse = math.inf if finer == FINEST else COARSE  # tail of an interval that asks for a finer mesh
-        self.theta, self.t_end, self.n = plant.theta, math.inf if t_end is None else t_end, n
+        self.closed = ClosedElements(forms, self.levels, units)
+        self.coarse = math.inf if finest else COARSE  # tail of an interval that asks for a finer mesh
+        self.theta, self.t_end, self.n = sizes.theta, math.inf if t_end is None else t_end, n
         self.to_rest = t_end is None
         if self.to_rest:
-            self.final = np.array([final_values(plant, form) for form in forms]).repeat(
-                P, axis=1
-            )  # y and z at the nodes
+            final = [final_values(self._plant(i), form) for i, form in enumerate(forms)]
+            self.final = np.array(final).repeat(P, axis=1)  # y and z at the nodes
             self.final[:, P:, 1] += 1.0
         self.mesh = [self.theta * part for part in self.levels.shape]
         self.x = self.closed.start()
@@ -137,6 +149,17 @@ class _March:
         self.batches: list[Batch] = []
         self.held = 0  # elements in them
         self.rates: dict[int, float] = {}
+
+    def _plant(self, i: int) -> Plant:
+        """The plant of a tuning."""
+        return self.plants[i if len(self.plants) > 1 else 0]
+
+    def _unit(self, i: int) -> float:
+        """Its unit of time."""
+        return float(self.units[i if len(self.plants) > 1 else 0])
+
+    def _loop(self, i: int) -> Loop:
+        return Loop(self._plant(i), self.forms[i])
 
     def arrives(self) -> bool:
         """The whole way; False as soon as the mesh turns out to be too coarse."""
@@ -156,7 +179,7 @@ class _March:
     def _count(self, theta: float, t_end: float | None) -> int:
         """Intervals of theta that are stepped over first."""
         degree = self._degree()
-        count = 2 + math.ceil(SMOOTH / degree) if degree else 3 * SMOOTH
+        count = 2 + math.ceil(SMOOTH / degree) if degree else MOST_INTERVALS
         if theta and t_end is not None:
             count = min(count, math.floor(t_end / theta * (1 + 1e-12)) + 1)
         return max(count, 1)
@@ -165,8 +188,8 @@ class _March:
         """Least relative degree of the loops."""
         chain = self.levels.chain
         if self.derivative:
-            return chain.relative_degree - (not chain.tau_F)
-        return chain.relative_degree + (chain.tau_F > 0) + (not self.proportional)
+            return chain.relative_degree - (not chain.filtered)
+        return chain.relative_degree + chain.filtered + (not self.proportional)
 
     def elements(self) -> None:
         """On at every tuning's own pace."""
@@ -203,7 +226,7 @@ class _March:
         """Stop where even the least number of elements is too many, or the likely one of all tunings."""
         likely = 0.0
         for i in list(self.active):
-            per_time, duration = oscillation(Loop(self.plant, self.forms[i]))
+            per_time, duration = oscillation(self._loop(i))
             end = duration if self.to_rest else min(duration, self.t_end)
             likely += LIKELY * per_time * end
             if per_time * end > self.most:
@@ -282,13 +305,15 @@ class _March:
     def _rests(self, i: int, away: float) -> bool:
         """Whether a response within `away` of its end has arrived; what does not get nearer may be a slow mode."""
         control = self.controls[i]
-        control.at_rest = away <= REST or (control.stalls(away) and self._slowest(i) * control.t >= GONE)
+        control.at_rest = away <= REST or (
+            control.stalls(away) and self._slowest(i) * control.t * self._unit(i) >= GONE
+        )
         return control.at_rest
 
     def _slowest(self, i: int) -> float:
         """Rate at which the slowest mode of a tuning decays; infinite where it is not known."""
         if i not in self.rates:
-            poles = dominant_poles(Loop(self.plant, self.forms[i]), most=1)
+            poles = dominant_poles(self._loop(i), most=1)
             self.rates[i] = -poles[0].s.real if poles else math.inf
         return self.rates[i]
 

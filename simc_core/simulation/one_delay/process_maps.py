@@ -1,4 +1,4 @@
-"""What a stretch of time does to the plant and to what its controller measures: the same for all tunings.
+"""What a stretch of time does to plants and to what their controllers measure: the same for all tunings of a plant.
 
     w --> [ g ] --> y --> [ 1/(tau_F s + 1) ] --> p        w: input of the plant behind its dead time, y = g w
 
@@ -10,10 +10,16 @@ start of the element is the matrix K = h a. Each section of the chain (realisati
            b x' + c x = v      with W = x':    (b + c K) W = v - c x_0
 
 which is the collocation method of the whole chain. Columns of every map: (w at the nodes, x_0).
+
+Plants of one structure, whose sections have the same coefficients other than 0, are done together, each in a time unit
+of its own: then all of them have the same elements.
 """
+
+from collections.abc import Sequence
 
 import numpy as np
 
+from simc_core.algebra.factors import Factored
 from simc_core.algebra.state_space import Row, sections
 from simc_core.controllers.forms import needs_filter
 from simc_core.errors import InvalidParameter
@@ -23,52 +29,74 @@ from simc_core.simulation.collocation.elements import COLLOCATION
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 
 SIGNALS = 4  # y, p, p', integral of p
+Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
 EYE = np.eye(P)
 
 
 class ProcessMaps:
-    """The chain of plant and measurement filter, and its maps for any length.
+    """The chains of m plants and their measurement filters, all of one structure, and their maps for any length.
 
+    units: of time, one a plant.   tau_F: filters, one a plant, all 0 or none.
     Raises InvalidParameter: derivative action without filter on a plant whose response starts with a jump.
     """
 
-    def __init__(self, plant: Plant, tau_F: float, derivative: bool):
-        factored = factored_plant(plant)
-        self.gain, self.theta, self.tau_F = plant.k, plant.theta, tau_F
-        self.sections = sections(factored)
+    def __init__(self, plants: Sequence[Plant], tau_F: Sequence[float], derivative: bool, units: Sequence[float]):
+        factored = [factored_plant(plant) for plant in plants]
+        chains = [sections(each, unit) for each, unit in zip(factored, units, strict=True)]
+        self.gain = np.array([plant.k for plant in plants])[:, None, None, None]
+        self.theta = plants[0].theta / units[0]
+        self.filtered = tau_F[0] > 0
+        self.tau_F = np.array(tau_F) / np.array(units)  # (m,)
+        self.sections = [
+            (_rows(num), _rows(den)) for num, den in (zip(*each, strict=True) for each in zip(*chains, strict=True))
+        ]
+        self.count = len(plants)
         self.derivative = derivative
-        self.n = sum(2 if den[0] else 1 for _, den in self.sections) + (tau_F > 0)
-        if derivative and not tau_F and not self._strictly_proper():
+        self.n = sum(2 if den[0] else 1 for _, den in chains[0]) + self.filtered
+        if derivative and not self.filtered and not _strictly_proper(chains[0]):
             raise InvalidParameter(needs_filter("on a plant whose response starts with a jump"))
-        filter_ = [-1 / tau_F] if tau_F else []
-        self.modes = np.array([*factored.poles, *filter_])
-        self.relative_degree = factored.relative_degree
-
-    def _strictly_proper(self) -> bool:
-        if not self.sections:
-            return False
-        (b2, b1, _), (a, _, _) = self.sections[-1]
-        return (b2 if a else b1) == 0
+        self.modes = modes(factored[0], tau_F[0]) * units[0]
+        self.relative_degree = factored[0].relative_degree
 
     def elements(self, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Of single elements: signals (4, lengths, P, P + n) and states at the end (lengths, n, P + n)."""
+        """Of single elements: signals (4, m, lengths, P, P + n) and states at the end (m, lengths, n, P + n)."""
         n, count = self.n, len(lengths)
         K = lengths[:, None, None] * COLLOCATION
-        v, ends = np.zeros((count, P, P + n)), np.zeros((count, n, P + n))
-        v[:, :, :P] = self.gain * EYE
+        v, ends = np.zeros((self.count, count, P, P + n)), np.zeros((self.count, count, n, P + n))
+        v[:, :, :, :P] = self.gain * EYE
         slope, used = np.zeros_like(v), 0
         for num, den in self.sections:
             v, slope, used = _section(num, den, K, v, ends, used)
-        outputs = np.empty((SIGNALS, count, P, P + n))
+        outputs = np.empty((SIGNALS, self.count, count, P, P + n))
         outputs[0] = v
-        if self.tau_F:
-            v, slope, used = _section((0.0, 0.0, 1.0), (0.0, self.tau_F, 1.0), K, v, ends, used)
+        if self.filtered:
+            one = np.ones((self.count, 1, 1, 1))
+            filter_ = (0 * one, self.tau_F[:, None, None, None], one)
+            v, slope, used = _section((0 * one, 0 * one, one), filter_, K, v, ends, used)
         outputs[1], outputs[2], outputs[3] = v, slope, K @ v
         return outputs, ends
 
 
+def modes(factored: Factored, tau_F: float) -> np.ndarray:
+    """Poles of a plant and of its filter, complex, rad per time."""
+    return np.array([*factored.poles, *([-1 / tau_F] if tau_F else [])])
+
+
+def _strictly_proper(chain: list[tuple[Row, Row]]) -> bool:
+    if not chain:
+        return False
+    (b2, b1, _), (a, _, _) = chain[-1]
+    return (b2 if a else b1) == 0
+
+
+def _rows(rows: Sequence[Row]) -> Rows:
+    """A coefficient of each plant, (m, 1, 1, 1), three times."""
+    a, b, c = np.array(rows).T[..., None, None, None]
+    return a, b, c
+
+
 def _section(
-    num: Row, den: Row, K: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int
+    num: Rows, den: Rows, K: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int
 ) -> tuple[np.ndarray, np.ndarray, int]:
     """One section: its output and the slope of it, and the next free state; the states at the end go into `ends`.
 
@@ -76,20 +104,20 @@ def _section(
     """
     (b2, b1, b0), (a, b, c) = num, den
     right, x_0 = v.copy(), P + used
-    right[:, :, x_0] -= c
-    if not a:
-        W = np.linalg.solve(b * EYE + c * K, right) if c else right / b
+    right[..., x_0] -= c[..., 0]
+    if not a.any():
+        W = np.linalg.solve(b * EYE + c * K, right) if c.any() else right / b
         x = K @ W
-        x[:, :, x_0] += 1.0
-        ends[:, used] = x[:, -1]
-        return (b0 * x + b1 * W if b1 else b0 * x), b0 * W, used + 1
+        x[..., x_0] += 1.0
+        ends[:, :, used] = x[:, :, -1]
+        return (b0 * x + b1 * W if b1.any() else b0 * x), b0 * W, used + 1
     ramp = K.sum(axis=2)  # K applied to 1
-    right[:, :, x_0 + 1] -= b + c * ramp
+    right[..., x_0 + 1] -= b[..., 0] + c[..., 0] * ramp
     W = np.linalg.solve(a * EYE + b * K + c * (K @ K), right)
     first = K @ W
-    first[:, :, x_0 + 1] += 1.0
+    first[..., x_0 + 1] += 1.0
     x = K @ first
-    x[:, :, x_0] += 1.0
-    ends[:, used], ends[:, used + 1] = x[:, -1], first[:, -1]
-    out = b0 * x + b1 * first + b2 * W if b1 or b2 else b0 * x
+    x[..., x_0] += 1.0
+    ends[:, :, used], ends[:, :, used + 1] = x[:, :, -1], first[:, :, -1]
+    out = b0 * x + b1 * first + b2 * W if b1.any() or b2.any() else b0 * x
     return out, b0 * first + b1 * W, used + 2
