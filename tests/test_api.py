@@ -145,7 +145,7 @@ OF_ANY_LOOP = (stability, margins, crossings, performance, simulate, lambda loop
 @pytest.mark.parametrize("function", OF_ANY_LOOP)
 @pytest.mark.parametrize("given", [Plant(1, 1, (8,)), SeriesPid(4, 8), None, "loop"])
 def test_what_is_no_loop_is_refused_in_words(function, given):
-    with pytest.raises(TypeError, match="loop must be a Loop, CascadeLoop or NestedLoops, got") as refused:
+    with pytest.raises(TypeError, match="loop must be a Loop, CascadeLoop or NestedLoops, found") as refused:
         function(given)
     assert isinstance(refused.value, SimcError)
 

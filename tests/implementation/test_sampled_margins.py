@@ -124,7 +124,7 @@ def test_the_verdict_holds_for_thousands_of_samples_in_a_dead_time():
     found = sampled_margins(PI, 1 / 3000)
     assert found.Ms == pytest.approx(margins(PI).Ms, rel=3e-4)
     assert not sampled_margins(replace(PI, controller=SeriesPid(13, 8)), 1 / 3000).stable
-    with pytest.raises(InvalidParameter, match=r"h must be >= theta/10000 = 0.0001, got 1e-05"):
+    with pytest.raises(InvalidParameter, match=r"h must be >= theta/10000 = 0.0001, found 1e-05"):
         sampled_margins(PI, 1e-5)
 
 
@@ -171,7 +171,7 @@ def test_the_longest_period_is_none_where_the_law_ends_first():
 def test_what_has_no_sampled_margins_is_refused():
     with pytest.raises(InvalidParameter, match=r"tau_F must be >= h/2 = 0.5"):
         sampled_margins(PID, 1.0, "tustin")
-    with pytest.raises(InvalidParameter, match="loop must be a Loop, got Plant"):
+    with pytest.raises(InvalidParameter, match="loop must be a Loop, found Plant"):
         sampled_margins(PI.plant, 1.0)
     with pytest.raises(NotStable):
         longest_sampling_period(replace(PI, controller=SeriesPid(40, 8)))

@@ -128,7 +128,7 @@ def test_what_a_form_needs_is_told_in_the_unit_of_the_page():
     """tau_I 2 min < 4 tau_D 4 min: no series form, in minutes as on the page and not in seconds."""
     own = "ideal~1~2~1~0.1~1~0"
     app = run_page("take_home", plant="exp(-s)/(5s+1)", unit="min", own=own, controller="own", box="deltav_series")
-    assert "= 4, got" in app.error[0].value
+    assert "= 4, found" in app.error[0].value
     assert not app.exception
 
 
