@@ -14,7 +14,7 @@ from simc_core.studies.tuning_plane import TuningPlane
 PEAK = "Mst = max(Ms, Mt)  [–]"
 STYLES = {"PI": (palette.Y, "circle", "solid"), "PID": (palette.REDUCED, "diamond", "dash")}
 WIDEST = 4.0  # peaks that are shown at first
-HIGHEST = 8.0  # values that are shown at first, over the smallest
+HIGHEST = 20.0  # values that are shown at first, over the smallest
 ROOM = 1.08
 SIZE = 9  # px
 
@@ -185,8 +185,8 @@ def _view(fronts: Sequence[Path], points: Sequence[Point]) -> tuple[float, float
     """Least and largest value, and largest peak, that are shown at first."""
     widest = min(max([2.0, *(each.x for each in points)]) * ROOM, WIDEST)
     shown = [each.y for each in points if each.x <= widest]
-    values = np.array([*shown, *(y for each in fronts for y in each.y[each.x <= widest].tolist())])
-    if not values.size:
+    least = [*shown, *(y for each in fronts for y in each.y[each.x <= widest].tolist())]
+    if not least:
         return 0.1, 10.0, widest
-    low = float(values.min())
-    return low / ROOM, min(float(values.max()), HIGHEST * low) * ROOM, widest
+    low = min(least)
+    return low / ROOM, min(max(shown or least), HIGHEST * low) * ROOM, widest

@@ -35,6 +35,7 @@ def test_a_click_in_the_picture_and_a_row_of_the_table_pick_a_rule(server, open_
     page = open_page(f"{server}/rules?{LAG}")
     expect(page.locator(".st-key-figure_rules_trade_off .main-svg").first).to_be_visible()
     page.locator(".st-key-figure_rules_trade_off").scroll_into_view_if_needed()
+    page.mouse.move(*page.evaluate(POINT, "AMIGO, PI"))
     page.mouse.click(*page.evaluate(POINT, "AMIGO, PI"))
     expect(page.get_by_text("AMIGO, PI, AH04")).to_be_visible()
     assert "compared_rule=amigo-PI" in page.url
