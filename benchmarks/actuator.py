@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from benchmarks.recompute import keep, median_times, pin
 from simc_core import Actuation, Loop, Plant, Scenario, SeriesPid, simulate
-from simc_core.simulation.actuator.actuation import STEPS, Inputs
+from simc_core.simulation.actuator.actuation import FEWEST_STEPS, Inputs
 from simc_core.simulation.actuator.continuous import actuated
 
 LOOPS = {
@@ -19,7 +19,7 @@ LOOPS = {
     "order 4, PID": Loop(Plant(1, 1, (6, 3, 1, 0.5)), SeriesPid(1.5, 6, 3, 0.3)),
 }
 LIMITED = Scenario(1.0, -0.5, 40.0, 80.0, actuation=Actuation(u_min=-0.2, u_max=1.3))
-STEP = LIMITED.t_end / STEPS
+STEP = LIMITED.t_end / FEWEST_STEPS
 SITUATIONS = {
     "theta > 0": (1.0, LIMITED),
     "theta = 0": (0.0, LIMITED),
@@ -47,7 +47,7 @@ def main() -> None:
             for case, (theta, scenario) in SITUATIONS.items()
         }
         taken = median_times({case: lambda run=run: simulate(*run) for case, run in runs.items()})
-        per_5000 = {case: 1e3 * taken[case] * STEPS / steps(*run) for case, run in runs.items()}
+        per_5000 = {case: 1e3 * taken[case] * FEWEST_STEPS / steps(*run) for case, run in runs.items()}
         rows.append({"case": name, "ms per 5000 steps": per_5000})
         print(f"| {name} | " + " | ".join(f"{each:.1f}" for each in per_5000.values()) + " |")
     keep("actuator", rows)

@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages.common.from_data import models_view, record_view, source, tuning_view, understood
+from pages.common.from_data import experiments, models_view, record_view, source, tuning_view, understood
 from pages.common.from_data.graphical_view import graphical
 from pages.common.parts.foreign_text import told
 from pages.common.parts.refusals import explain_refusal
@@ -36,5 +36,6 @@ with shown, explain_refusal():
         else:
             models_view.ranking(fits, model, trend)
             models_view.card(model, trend, part)
-            tuning_view.show(work, trend, part, model)
+            tuning_view.show(work, trend, part, fits, model)
             graphical(part, model)
+experiments.show(design)

@@ -9,10 +9,12 @@ from pages.common.shell import header
 from pages.common.studies.single import Study, present_study
 from pages.common.take_home import view as take_home
 from pages.common.take_home.code import code
+from pages.common.take_home.report_view import report_view
+from pages.common.take_home.schedule import schedule
 from pages.common.take_home.way_out import way_out
-from simc_core.errors import FormError
+from simc_core.errors import BoxError, FormError
 
-VIEWS = ("Settings", "Code")
+VIEWS = ("Settings", "Code", "Schedule", "Report")
 
 
 def in_the_box(design: Design, present: Study) -> None:
@@ -28,13 +30,17 @@ def in_the_box(design: Design, present: Study) -> None:
     except FormError as error:
         way_out(design, present, error)
         return
+    except BoxError as error:
+        take_home.refused(design, present, error)
+        return
     take_home.proof(design, present, found)
     take_home.notes(design, found)
 
 
 design = header.show("take_home")
 with explain_refusal():
-    present = present_study(design)
+    with st.spinner("Tuning the loop"):
+        present = present_study(design)
     with st.container(key="take_home"):
         controls, shown = st.columns([4, 11], gap="medium")
     with controls:
@@ -43,7 +49,9 @@ with explain_refusal():
         if design.box:
             take_home.in_the_box_now(design)
     with shown:
-        for view, show in zip(st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code), strict=True):
+        for view, show in zip(
+            st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code, schedule, report_view), strict=True
+        ):
             if view.open:
                 with view, explain_refusal():
                     show(design, present)

@@ -34,11 +34,14 @@ from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.convert import Typed, from_box, to_box
 from simc_core.implementation.exports.export import export
+from simc_core.implementation.exports.schedule import export_schedule
 from simc_core.implementation.gain_schedule import GainSchedule
 from simc_core.implementation.sampled_margins import longest_sampling_period, sampled_margins
+from simc_core.implementation.schedule_table import ScheduleTable
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.loops.static_errors import StaticErrors, static_errors
 from simc_core.many.read_list import LoopList, read_list
 from simc_core.many.result import Judged, Result
 from simc_core.many.run import tune_many
@@ -46,6 +49,7 @@ from simc_core.many.tune_rows import tune_chunk, tune_row
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import Performance, performance
 from simc_core.metrics.step_metrics import StepMetrics
+from simc_core.metrics.step_quality import Quality, StepQuality, step_quality
 from simc_core.numbers import read_number, read_numbers
 from simc_core.optimal.robust_region import gain_intervals, robust_region
 from simc_core.optimal.stability_limit import stability_limit
@@ -67,6 +71,7 @@ from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
+from simc_core.sensitivity.bandwidth import Bandwidth, bandwidth
 from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
@@ -76,3 +81,127 @@ from simc_core.studies.equal_robustness import EqualRobustness, at_equal_robustn
 from simc_core.studies.optimum import optimal, trade_off
 from simc_core.studies.sweep import Sweep, sweep
 from simc_core.studies.tune import tune
+
+__all__ = [
+    "BOXES",
+    "RULES",
+    "Actuation",
+    "Bandwidth",
+    "Box",
+    "BoxError",
+    "BudgetEntry",
+    "ByHand",
+    "Candidate",
+    "CascadeDesign",
+    "CascadeLoop",
+    "ClosedLoopPole",
+    "DataError",
+    "DoubleIntegratingDelay",
+    "EqualRobustness",
+    "FirstOrderDelay",
+    "FormError",
+    "FrequencyResponse",
+    "GainSchedule",
+    "IController",
+    "IdealPid",
+    "Identified",
+    "IntegratingDelay",
+    "InvalidParameter",
+    "Judged",
+    "Loop",
+    "LoopList",
+    "Margins",
+    "NestedLoops",
+    "NestedPerformance",
+    "NestedResponse",
+    "NestedStability",
+    "NoOptimum",
+    "NotIdentifiable",
+    "NotReducible",
+    "NotStable",
+    "Optimum",
+    "OscillatingDelay",
+    "OutOfDomain",
+    "ParallelPid",
+    "ParseError",
+    "Performance",
+    "Plant",
+    "Quality",
+    "Reduction",
+    "Relay",
+    "Result",
+    "Rule",
+    "RuleEnds",
+    "Scenario",
+    "ScheduleTable",
+    "SecondOrderDelay",
+    "SeriesPid",
+    "SimcError",
+    "Stability",
+    "StaticErrors",
+    "Step",
+    "StepMetrics",
+    "StepQuality",
+    "Sweep",
+    "TimeResponse",
+    "Trend",
+    "Typed",
+    "Ultimate",
+    "UnstableDelay",
+    "WrongType",
+    "at_equal_robustness",
+    "bandwidth",
+    "by_hand",
+    "comparison",
+    "count_unstable",
+    "crossings",
+    "direct_synthesis",
+    "dominant_poles",
+    "export",
+    "export_schedule",
+    "find_moves",
+    "frequency_response",
+    "from_box",
+    "gain_intervals",
+    "half_rule",
+    "identify",
+    "identify_all",
+    "longest_sampling_period",
+    "margins",
+    "margins_many",
+    "margins_of",
+    "ms_of_cloud",
+    "optimal",
+    "parse_plant",
+    "performance",
+    "read_back",
+    "read_list",
+    "read_number",
+    "read_numbers",
+    "read_trend",
+    "relay_from_trend",
+    "relay_test",
+    "retune_oscillation",
+    "robust_region",
+    "robust_tau_c",
+    "sampled_margins",
+    "setpoint_overshoot",
+    "simc",
+    "simc_cascade",
+    "simulate",
+    "stability",
+    "stability_limit",
+    "stability_many",
+    "static_errors",
+    "step_quality",
+    "sweep",
+    "synthesis_cascade",
+    "tau_c_presets",
+    "to_box",
+    "trade_off",
+    "tune",
+    "tune_chunk",
+    "tune_many",
+    "tune_row",
+    "ultimate",
+]

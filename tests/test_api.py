@@ -133,6 +133,12 @@ def test_direct_synthesis_needs_a_process_and_lambda_only():
     assert hasattr(direct_synthesis(SECONDARY, 0.5), "response")
 
 
+def test_all_that_is_public_is_in_all():
+    """Else a type checker refuses to import it: a package with py.typed exports what it says, nothing by the way."""
+    public = {name for name, value in vars(simc_core).items() if name[0] != "_" and not inspect.ismodule(value)}
+    assert set(simc_core.__all__) == public
+
+
 OF_ANY_LOOP = (stability, margins, crossings, performance, simulate, lambda loop: frequency_response(loop, [1.0]))
 
 

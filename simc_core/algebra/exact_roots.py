@@ -17,10 +17,10 @@ import numpy as np
 
 from simc_core.algebra.square_free import Polynomial
 
-GOOD = 1e-13  # relative distance to the nearest root, by one step of Newton, with which an eigenvalue is left as it is
+GOOD_ROOT = 1e-13  # relative distance to the nearest root, by one step of Newton: such an eigenvalue is left as it is
 MOST_STEPS = 80
 MOST_BITS = 4000  # of a root, beyond which it would take too long
-SETTLED = 2.0**-60  # relative size of a last step
+LAST_STEP = 2.0**-60  # relative size of a last step
 REAL = 2.0**-50  # relative: an imaginary part that is none
 TURNED = 0.01  # radians: the first guesses leave the symmetry about the real axis, in which no pair could part
 
@@ -38,7 +38,7 @@ def polished(polynomial: Polynomial, guesses: Sequence[complex]) -> list[complex
         return list(guesses)
     p = [int(c * 2**bits) for c in polynomial]
     z = [_whole(each, bits) for each in guesses]
-    if all(abs(_newton(p, each, bits)) <= GOOD * abs(guess) for each, guess in zip(z, guesses, strict=True)):
+    if all(abs(_newton(p, each, bits)) <= GOOD_ROOT * abs(guess) for each, guess in zip(z, guesses, strict=True)):
         return list(guesses)
     z = [_whole(each * cmath.exp(1j * TURNED * (1 + i / len(z))), bits) for i, each in enumerate(guesses)]
     if not _settled(p, z, bits):
@@ -63,7 +63,7 @@ def _settled(p: list[int], z: list[Whole], bits: int) -> bool:
             step = newton / (1 - newton * others)
             dx, dy = _whole(step, bits)
             z[i] = x - dx, y - dy
-            if abs(step) <= SETTLED * abs(complex(x / 2**bits, y / 2**bits)):
+            if abs(step) <= LAST_STEP * abs(complex(x / 2**bits, y / 2**bits)):
                 moving.discard(i)
         if not moving:
             return True

@@ -21,7 +21,7 @@ from simc_core.certificate.bound_tables import table
 from simc_core.certificate.characteristic import Characteristic
 from simc_core.certificate.segments import Nodes
 
-ROUNDING = 4 * np.finfo(float).eps  # of one factor, generously
+FACTOR_ROUNDING = 4 * np.finfo(float).eps  # of one factor, generously
 SMALLEST = 1e-150  # |q| below it is taken for it: log 0 is kept out
 NOTHING = 1e-120  # |f| below it is 0
 TINY = np.finfo(float).tiny
@@ -127,7 +127,7 @@ class BatchedSum:
         noise = np.abs(terms) * (t.sizes @ np.abs(parts) + (delays + t.counts))
         if self.bends:  # |q| without the cancellation in c - a omega^2, over |q|: rounding errors grow by that
             noise *= np.exp(t.above @ (0.5 * np.log(full + SMALLEST**2) - parts[:M]))
-        return _Values(parts, slopes, thetas, phase, terms.sum(0), ROUNDING * noise.sum(0) + NOTHING)
+        return _Values(parts, slopes, thetas, phase, terms.sum(0), FACTOR_ROUNDING * noise.sum(0) + NOTHING)
 
     def _put_inner_minimum(self, low: np.ndarray, nodes: Nodes) -> None:
         """low of the quadratic factors, smaller where |q| has its minimum inside the segment."""

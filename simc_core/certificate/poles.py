@@ -35,9 +35,9 @@ CHAIN_STEPS = 3
 FAR_LEFT = -(2.0 ** np.arange(0.0, 6.0, 0.25))  # theta s of real poles that the discretisation has not resolved
 ABOUT = 8  # turns on either side of a resonance
 BESIDE = 1e-6 * (1 + 1j)  # relative distance from an open-loop pole, on which L is infinite
-SETTLED = 1e-12
+LAST_STEP = 1e-12  # of Newton, relative
 APART = 1e-6  # relative, of the real parts of two poles between which there is room for the axis
-SAME = 1e-14  # relative, of coefficients that were the same before they were rounded
+SAME_COEFFICIENT = 1e-14  # relative, of coefficients that were the same before they were rounded
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +177,7 @@ def _without_common(L: Factored) -> tuple[Factored, np.ndarray]:
 
 
 def _same(one: list[float], other: list[float]) -> bool:
-    return all(abs(a - b) <= SAME * abs(b) for a, b in zip(one, other, strict=True))
+    return all(abs(a - b) <= SAME_COEFFICIENT * abs(b) for a, b in zip(one, other, strict=True))
 
 
 def _polished(L: Factored, start: np.ndarray) -> list[complex]:
@@ -189,7 +189,7 @@ def _polished(L: Factored, start: np.ndarray) -> list[complex]:
             step = (1 + value) / (value * slope)
             kept = np.isfinite(s - step)
             s, step = (s - step)[kept], step[kept]
-            settled = np.abs(step) <= (SETTLED if left else 1e-9) * np.abs(s)
+            settled = np.abs(step) <= (LAST_STEP if left else 1e-9) * np.abs(s)
             found.append(s[settled])
             s = s[~settled]
     s = np.concatenate(found)

@@ -30,7 +30,7 @@ from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
 from simc_core.loops.well_posed import require_well_posed
 
-SAME = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
+ON_NEUTRAL_LIMIT = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
 NEUTRAL_TURNS, MOST_TURNS = 1e3, 1e6  # omega theta up to which a zero on the axis is taken for the only one near
 
@@ -223,7 +223,7 @@ def _at_infinity(f: Characteristic) -> Stability | None:
     neutral = f.neutral
     if f.delayed == 0:
         require_well_posed(f.limit)
-    if abs(neutral - 1) <= SAME:
+    if abs(neutral - 1) <= ON_NEUTRAL_LIMIT:
         return Stability("marginal", 0, neutral)
     return Stability("unstable", math.inf, neutral) if neutral > 1 else None
 

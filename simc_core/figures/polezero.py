@@ -8,7 +8,7 @@ from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.plants.plant import Plant
 
-SAME = 10  # significant digits to which two poles are one multiple pole
+SAME_POLE_DIGITS = 10  # significant digits to which two poles are one multiple pole
 
 
 def pole_zero_figure(plant: Plant, height: int | None = None) -> Figure:
@@ -36,7 +36,7 @@ def pole_zero_figure(plant: Plant, height: int | None = None) -> Figure:
 def _points(roots: np.ndarray, name: str, color: str, symbol: str) -> list[Trace]:
     if not roots.size:
         return []
-    counted = Counter(complex(f"{root:.{SAME}g}") for root in roots)
+    counted = Counter(complex(f"{root:.{SAME_POLE_DIGITS}g}") for root in roots)
     return [
         {
             "type": "scatter",

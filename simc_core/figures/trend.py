@@ -111,6 +111,21 @@ def tau_c_figure(
     )
 
 
+def relay_figure(t: Array, y: Array, u: Array, height: int | None = None) -> Figure:
+    """y over u of a relay test, each shape (n,), u held from each instant on."""
+    hover: dict[str, Any] = {"hovertemplate": "%{y:.4g}"}
+    return palette.figure(
+        [
+            palette.line(*thinned(t, y), "y", palette.Y, **hover),
+            palette.line(*held(t, u, float(t[-1])), "u", palette.U, width=1.6, yaxis="y2", **hover),
+        ],
+        palette.axis(palette.TIME, hoverformat=".5g", anchor="y2"),
+        palette.axis("y  [unit of y]", domain=[0.4, 1.0]),
+        height,
+        yaxis2=palette.axis("u  [unit of u]", domain=[0.0, 0.32], nticks=4),
+    )
+
+
 def _band(low: float, high: float) -> dict[str, object]:
     return {
         "type": "rect",

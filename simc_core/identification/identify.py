@@ -22,6 +22,7 @@ from simc_core.identification.parameters import natural
 from simc_core.identification.trend import MOST_SAMPLES, Trend, check_trend
 
 MOST_TRENDS = 20
+ON_SETPOINT = 0.03  # share of the moves
 BELIEVED = 1e-4  # of the response: deviations below are not believed
 
 
@@ -142,12 +143,12 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
     plant, model = as_model(problem.structure.key, parameters)
     step = resolution_of(trends)
     floor = max(BELIEVED * response_of(trends), step / np.sqrt(12))
-    moves = gains_per_move(found.fit, found.noise, find_moves(trends[0]), floor) if len(trends) == 1 else ()
     own = problem.root_weight > 0
     around = np.concatenate([problem.y[part] - problem.y[part].mean() for part in problem.parts])
     residuals = found.fit.residual
     moved = float(np.linalg.norm(around * own))
     share = 1 - float(np.linalg.norm(residuals * own)) / moved if moved > 0 else 0.0
+    moves = gains_per_move(found.fit, share, find_moves(trends[0]), floor) if len(trends) == 1 else ()
     bias, slope = along(found)
     return Identified(
         structure=problem.structure.key,
@@ -162,7 +163,7 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
         residuals=residuals,
         predicted=problem.y - residuals,
         fit=share,
-        verdicts=verdicts(found, width, moves, share),
+        verdicts=(*_follows(trends, parameters, bias), *verdicts(found, width, moves, share)),
         slope=_slope(names, values, covariance),
         gains=moves,
         noise=found.noise.sigma,
@@ -170,6 +171,19 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
         criterion=np.nan,
         estimate=found,
     )
+
+
+def _follows(trends: list[Trend], parameters: Mapping[str, float], bias: Array) -> list[str]:
+    """A warning where PV comes to rest on the values of OP themselves, as it does on a set point."""
+    if abs(parameters.get("k", 0.0) - 1) > ON_SETPOINT:
+        return []
+    for one, level in zip(trends, bias.tolist(), strict=True):
+        if abs(level - one.u[0]) > ON_SETPOINT * float(np.ptp(one.u)):
+            return []
+    return [
+        "PV comes to rest on the very values taken for OP: are they the set point? Then this is the model of a closed "
+        "loop, not of the process, and no settings follow from it."
+    ]
 
 
 def _intervals(names: list[str], values: Array, errors: Array, width: float) -> dict[str, tuple[float, float]]:

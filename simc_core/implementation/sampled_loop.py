@@ -22,13 +22,13 @@ from simc_core.controllers.forms import ParallelPid
 from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.one_step import Linear
 
-SAME = 1e-9  # relative; a dead time closer than this to a multiple of h is one
+SAME_INSTANT = 1e-9  # relative; a dead time closer than this to a multiple of h is one
 MOST_PERIODS = 10_000  # of sampling in a dead time
 RIM = 1e-9  # of log|z|, to the circle that counts poles: those on |z| = 1, integrators, lie within
 SMALLEST_ANGLE = RIM / 100
 PER_DECADE = 40  # nodes of small angles
 PER_TURN = 16  # nodes in which the dead time turns L once
-FAR = 1.0  # radians that 1 + L may turn from node to node
+LARGEST_TURN = 1.0  # radians that 1 + L may turn from node to node
 HALVINGS = 60
 
 
@@ -45,7 +45,7 @@ class SampledLoop:
     def _plant(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, float, int]:
         """Phi, Gnew, Gold, C, D, d."""
         theta = self.loop.plant.theta + self.delay_scans * self.h
-        d = math.floor(theta / self.h * (1 + SAME))
+        d = math.floor(theta / self.h * (1 + SAME_INSTANT))
         A, B, C, D = chain(self.loop.plant.factored)
         Phi, Gold, Gnew = Linear(A, B, C, np.array(D)).late_hold(self.h, self.h - max(theta - d * self.h, 0.0))
         return Phi, Gnew, Gold, C, D, d
@@ -88,7 +88,7 @@ class SampledLoop:
         offsets = np.concatenate([-np.geomspace(100, 0.01, 41), [0.0], np.geomspace(0.01, 100, 41)])
         for pole in np.linalg.eigvals(chain(self.loop.plant.factored)[0]):
             if pole.imag > 0:
-                near = pole.imag * self.h + max(abs(pole.real) * self.h, SAME) * offsets
+                near = pole.imag * self.h + max(abs(pole.real) * self.h, SAME_INSTANT) * offsets
                 nodes.append(np.abs((near + math.pi) % math.tau - math.pi))
         found = np.unique(np.concatenate(nodes))
         return found[(found >= SMALLEST_ANGLE) & (found <= math.pi)]
@@ -100,7 +100,7 @@ class SampledLoop:
         values = 1 + self.L(log_z)
         for _ in range(HALVINGS):
             turn = np.angle(values[1:] / values[:-1])
-            far = np.flatnonzero(np.abs(turn) > FAR)
+            far = np.flatnonzero(np.abs(turn) > LARGEST_TURN)
             if not far.size:
                 break
             middle = (log_z[far] + log_z[far + 1]) / 2

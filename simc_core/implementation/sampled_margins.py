@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from simc_core import checks
 from simc_core.controllers.discrete import known_law, law_for
 from simc_core.errors import InvalidParameter, NotStable
-from simc_core.implementation.sampled_loop import MOST_PERIODS, SAME, SampledLoop
+from simc_core.implementation.sampled_loop import MOST_PERIODS, SAME_INSTANT, SampledLoop
 from simc_core.loops.loop import Loop
 from simc_core.sensitivity.crossings import Crossings
 from simc_core.sensitivity.log_response import Asymptote, FactoredResponse
@@ -24,7 +24,7 @@ NEAR_HIGHEST = 0.9  # peaks lower than this part of the highest node are not loo
 HALVINGS = 35  # of an interval of dead time
 NEWTON_STEPS = 30  # to a delay margin; four are usual
 NEARBY = 1e-7  # relative, of the difference quotient
-SETTLED = 1e-12  # |log(-L)| at the delay margin
+LOG_L_ERROR = 1e-12  # |log(-L)| at the delay margin
 FIRST_PERIOD = 1 / 64  # of the dead time, or of 1/omega_Ms, in the search for the longest one
 
 
@@ -170,7 +170,7 @@ def _crossings(sampled: SampledLoop) -> Crossings:
     gains = _zeros(size, angles[at], angles[at + 1])
     at = np.flatnonzero(((turn[:-1] < 0) != (turn[1:] < 0)) & (np.abs(np.diff(turn)) < math.pi))
     phases = _zeros(phase, angles[at], angles[at + 1])
-    phases = phases[phases < math.pi * (1 - SAME)]  # pi itself is an end
+    phases = phases[phases < math.pi * (1 - SAME_INSTANT)]  # pi itself is an end
     S_omega, S_peak = _peaks(sampled.sensitivity, angles, np.abs(1 / (1 + L)))
     T_omega, T_peak = _peaks(T, angles, np.abs(1 - 1 / (1 + L)))
     left = phase(gains), phases / h, np.abs(sampled.L(1j * phases))
@@ -215,7 +215,7 @@ def _delay_margin(sampled: SampledLoop, crossed: Crossings) -> float:
         miss, slope = np.log(-here), np.log(ahead / here) / (omega * NEARBY)
         step = -miss.real / slope.real
         more, omega = max(more + (miss.imag + slope.imag * step) / omega, 0.0), omega + step
-        if abs(miss) < SETTLED:
+        if abs(miss) < LOG_L_ERROR:
             break
     return float(more)
 

@@ -12,11 +12,11 @@ from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.simulate_nested import time_scale
 
-REST = 1e-9
-BEGIN = 8.0  # first horizon, in units of all times of the loops together
+AT_REST = 1e-9  # of the largest value: less than that moves in the last quarter of the horizon
+FIRST_HORIZON = 8.0  # first horizon, in units of all times of the loops together
 MOST_DOUBLINGS = 12
-ROUNDING = 1e-7  # a stiff loop that comes no nearer to rest than this has reached its rounding errors
-OFFSET = 1e-7
+STIFF_ROUNDING = 1e-7  # a stiff loop that comes no nearer to rest than this has reached its rounding errors
+LARGEST_OFFSET = 1e-7  # of the largest value: with more at rest the integrals diverge
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ def nested_performance(loop: NestedLoops) -> NestedPerformance:
     y_and_u = pieces.coefficients[:, :, [N - 1, N]]
     _, right = Pieces(pieces.edges, y_and_u).ends()
     offset = np.abs(right[-1, 0] - np.array([1.0] + [0.0] * N))
-    if np.any(offset > OFFSET * np.max(np.abs(right[:, 0]), axis=0)):
+    if np.any(offset > LARGEST_OFFSET * np.max(np.abs(right[:, 0]), axis=0)):
         raise NotStable(f"IAE needs loops that settle without offset, got {float(np.max(offset)):.4g}")
     setpoint, *disturbances = metrics_of(_steps(pieces.edges, y_and_u))
     return NestedPerformance(setpoint, tuple(disturbances))
@@ -70,14 +70,14 @@ def _steps(edges: np.ndarray, y_and_u: np.ndarray) -> Steps:
 
 
 def _to_rest(loop: NestedLoops) -> Pieces:
-    steps, t_end, before = steps_of(loop), BEGIN * time_scale(loop), np.inf
+    steps, t_end, before = steps_of(loop), FIRST_HORIZON * time_scale(loop), np.inf
     for _ in range(MOST_DOUBLINGS):
         pieces = steps.run(t_end)
         left, right = pieces.ends()
         late = pieces.edges[1:] >= 0.75 * pieces.edges[-1]
         change = np.max(np.abs(np.stack([left[late], right[late]]) - right[-1]), axis=(0, 1))
         moving = float(np.max(change / (np.max(np.abs(right), axis=0) + 1e-300)))
-        if moving <= REST or before / 2 < moving <= ROUNDING:
+        if moving <= AT_REST or before / 2 < moving <= STIFF_ROUNDING:
             return pieces
         before, t_end = moving, 2 * t_end
     raise NotStable(f"the loops must come to rest within {t_end:.3g}, got ones too close to their stability limit")

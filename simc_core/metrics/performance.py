@@ -30,9 +30,9 @@ from simc_core.simulation.one_delay.march_plants import march_plants
 from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.simulate import settled
 
-OFFSET = 1e-7
-KNOWN = 1e-6  # relative, of an integral
-ROUNDING = 1e-12  # of the largest y, that a march leaves in y
+LARGEST_OFFSET = 1e-7  # of the largest value: with more at rest the integrals diverge
+INTEGRAL_PRECISION = 1e-6  # relative, of an integral
+MARCH_ROUNDING = 1e-12  # of the largest y, that a march leaves in y
 TINY = 1e-300
 
 
@@ -152,7 +152,7 @@ def _refusal(course: UnitResponses, i: int) -> NotStable | None:
     right = np.add.reduce(course.coefficients[0, :, course.first[i] : last + 1], axis=-1)
     offsets, largest = right[:, -1] - (1.0, 0.0), np.maximum.reduce(np.abs(right), axis=1)
     for name, offset, size in zip(("set-point", "load"), offsets.tolist(), largest.tolist(), strict=True):
-        if abs(offset) > OFFSET * max(size, 1e-300):
+        if abs(offset) > LARGEST_OFFSET * max(size, 1e-300):
             return NotStable(f"IAE needs a loop that settles without offset, got {-offset:.4g} after a {name} step")
     return None
 
@@ -179,12 +179,12 @@ class _Tail:
         self.found, self.length = found, float(course.length[last])
         self.T = float(course.begin[last]) + self.length
         self.left, self.right = (course.coefficients[0, source, last] @ ENDS.T - (1.0, 0.0)[source]).tolist()
-        self.rounding = ROUNDING * abs(found.peak)
+        self.rounding = MARCH_ROUNDING * abs(found.peak)
         self.largest = max(abs(self.left), abs(self.right))
 
     def negligible_rate(self) -> float:
         """A mode that decays at this rate, or faster, adds less than is known of any integral."""
-        rest = (self.largest + self.rounding) / KNOWN
+        rest = (self.largest + self.rounding) / INTEGRAL_PRECISION
         if not rest:
             return 0.0
         slowest = (math.sqrt(self.T**2 + 4 * self.found.ITAE / rest) - self.T) / 2  # T x + x^2 = ITAE/rest
@@ -199,7 +199,7 @@ class _Tail:
         values = {}
         for name, factor in (("IAE", 1 / sigma), ("ITAE", self.T / sigma + 1 / sigma**2)):
             whole = getattr(self.found, name) + abs(self.right) * factor
-            values[name] = whole if unknown * factor <= KNOWN * whole else math.nan
+            values[name] = whole if unknown * factor <= INTEGRAL_PRECISION * whole else math.nan
         return replace(self.found, **values)
 
 

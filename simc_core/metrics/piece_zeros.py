@@ -21,8 +21,8 @@ INTERVALS = 64
 SAMPLES = np.cos(np.pi * np.arange(INTERVALS, -1, -1) / INTERVALS)
 MOST_STEPS = 8
 SHORT, BENT = 0.1, 0.1  # of the bracket, and of N f''/(2 f'), the error of Newton's step in units of it
-FLAT = 1e-11  # of the size of a series: so near a level it begins on it, often with several derivatives
-ROUNDING = 1e-15  # of its size
+AT_LEVEL = 1e-11  # of the size of a series: so near a level it begins on it, often with several derivatives
+SERIES_ROUNDING = 1e-15  # of its size
 
 VANDERMONDE = chebyshev.chebvander(SAMPLES, P - 1).T
 SLOPE = chebyshev.chebder(np.eye(P), axis=1) @ np.eye(P - 1, P)  # coefficients -> those of the derivative
@@ -89,7 +89,7 @@ def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None
     """Of the series (R, P) through levels (L, R), -inf or nan for none.   turns: of the series."""
     values, size = series @ VANDERMONDE, np.add.reduce(np.abs(series), axis=1)
     below = values < levels[:, :, None]
-    flat = np.abs(values[:, 0] - levels) <= FLAT * size
+    flat = np.abs(values[:, 0] - levels) <= AT_LEVEL * size
     np.copyto(below[:, :, 0], below[:, :, 1], where=flat)
     where, interval = np.divmod(np.flatnonzero(below[:, :, 1:] != below[:, :, :-1]), INTERVALS)
     level, row = np.divmod(where, len(series))
@@ -100,7 +100,7 @@ def crossings(series: np.ndarray, levels: np.ndarray, turns: Turns | None = None
     level, row, interval, low, high, first, last = found
     own, through = series[row].T, levels[level, row]
     own[0] -= through
-    x, basis = _polished(own, ROUNDING * size[row], low, high, first - through, last - through)
+    x, basis = _polished(own, SERIES_ROUNDING * size[row], low, high, first - through, last - through)
     sign, ends = 1.0 - 2.0 * (first < through), 1.0 - 2.0 * below[0, :, ::INTERVALS].T
     return LevelCrossings(level, row, interval, x, sign, basis, below[:, :, 0], ends)
 

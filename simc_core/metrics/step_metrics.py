@@ -24,7 +24,7 @@ LEVELS = np.array(  # the end, 10 % and 90 %, the band of 2 %; of a load step in
     [[1.0, 0.1, 0.9, 0.98, 1.02], [0.0, np.nan, np.nan, -0.02, 0.02]]
 )[:, :, None]
 LEAST_OVERSHOOT = 1e-10  # less than that is rounding
-FLAT = 1e-13  # relative; y this near its peak is there: of a flat top the first instant counts
+AT_PEAK = 1e-13  # relative; y this near its peak is there: of a flat top the first instant counts
 TINY = 1e-300
 
 
@@ -173,7 +173,7 @@ def _extremes(
     np.maximum.at(high, owner, values)
     np.minimum.at(low, owner, values)
     peak = np.where(step | (high >= -low), high, low)
-    at_peak = np.abs(values - peak[owner]) <= FLAT * np.abs(peak[owner])
+    at_peak = np.abs(values - peak[owner]) <= AT_PEAK * np.abs(peak[owner])
     np.minimum.at(time, owner[at_peak], times[at_peak])
     beyond = np.where(step, peak - 1, np.where(peak > 0, -low, high) / np.maximum(np.abs(peak), TINY))
     passed = beyond > LEAST_OVERSHOOT
@@ -194,7 +194,16 @@ def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: LevelCrossings) -> t
 
 
 def _times(steps: Steps, found: LevelCrossings, levels: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rise time, nan for a load step, and settling time: first and last passages through `levels`.
+    """Rise time, nan for a load step, and settling time, from the passages through `levels`."""
+    first, last = passages(steps, found, levels, right)
+    first[first == np.inf] = 0.0
+    return np.where(steps.target, first[2] - first[1], np.nan), np.maximum(last[3], last[4])
+
+
+def passages(
+    steps: Steps, found: LevelCrossings, levels: np.ndarray, right: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """First and last time that each response passes each of `levels` (k, m): (k, n) both, inf and 0 for never.
 
     right: y at the right ends; where the next piece begins it may jump through a level.
     """
@@ -202,8 +211,8 @@ def _times(steps: Steps, found: LevelCrossings, levels: np.ndarray, right: np.nd
     x = np.concatenate([found.x, np.full(len(level), -1.0)])
     level, piece = np.concatenate([found.level, level]), np.concatenate([found.row, piece])
     times, which = steps.time(piece, x), (level, steps.owner[piece])
-    first, last = np.full((5, len(steps.first)), np.inf), np.zeros((5, len(steps.first)))
+    shape = len(levels), len(steps.first)
+    first, last = np.full(shape, np.inf), np.zeros(shape)
     np.minimum.at(first, which, times)
     np.maximum.at(last, which, times)
-    first[first == np.inf] = 0.0
-    return np.where(steps.target, first[2] - first[1], np.nan), np.maximum(last[3], last[4])
+    return first, last

@@ -30,7 +30,7 @@ from simc_core.sensitivity.margins import margins
 
 BETA = {"PI": 0.0, "PID": 0.5}
 SETTLED, MOST_INTERVALS = 1e-15, 5000
-ROUNDING = 1e-18  # coefficients below are left out
+NEGLIGIBLE_COEFFICIENT = 1e-18  # coefficients below are left out
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +76,8 @@ def _squared_error(ratio: float, beta: float) -> float:
         jump *= -a * beta
         start = float(e.sum()) + jump  # P_n(1) = 1
         change = -a * (legendre.legint(e, scl=0.5, lbnd=-1) + beta * np.pad(e - _at_start(e), (0, 1)))
-        e = np.trim_zeros(np.where(np.abs(change) > ROUNDING, change, 0.0), "b") if change.any() else np.zeros(1)
+        kept = np.where(np.abs(change) > NEGLIGIBLE_COEFFICIENT, change, 0.0)
+        e = np.trim_zeros(kept, "b") if change.any() else np.zeros(1)
         e = np.pad(e, (0, max(1 - len(e), 0)))
         e[0] += start
     return total

@@ -16,7 +16,7 @@ from simc_core.optimal.problem import Found, Problem
 SHAPES, WIDER = 15, 3  # integral times of the first look; how often it looks further where the best is the last
 LEAST, MOST = 0.15, 15.0  # of these, in units of the scale, or up to all times of the plant
 POINTS, ZOOMS = 7, 6  # of a closer look
-EQUAL = 1e-7  # relative; the neighbours of a minimum that are as good as it
+EQUALLY_GOOD = 1e-7  # relative; the neighbours of a minimum that are as good as it
 INSIDE = 0.998  # of Kc at the edge: where a bound that matters makes the criterion worse
 BELOW = 0.8  # log Kc below the edge, of the first look there
 CLOSER, ROUNDS = 0.4, 9  # what each look at Kc and tau_I together is narrowed by, and how many there are
@@ -43,7 +43,7 @@ def _with_integral(problem: Problem) -> Found | None:
         best = min(best, (closer[i], values[i]), key=lambda each: each[1])
         low, high = closer[max(i - 1, 0)], closer[min(i + 1, POINTS - 1)]
         around = values[max(i - 1, 0) : i + 2]
-        if around.max() <= values[i] * (1 + EQUAL):
+        if around.max() <= values[i] * (1 + EQUALLY_GOOD):
             break
     tau_I, value = math.exp(best[0]), float(best[1])
     Kc = float(problem.edges(tau_I)[1][0])

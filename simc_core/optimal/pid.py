@@ -27,11 +27,11 @@ MOST_M = 30.0
 DIFFERENCE = 1e-4  # of the variables, for the gradient
 PEAKS = 4  # of |S| and of |T|
 LOW = 0.5  # of M: peaks that matter
-SETTLED, VIOLATED = 3e-6, 2e-6  # relative: change of the criterion, peaks beyond what is asked
+CRITERION_SETTLED, VIOLATED = 3e-6, 2e-6  # relative: change of the criterion, peaks beyond what is asked
 ASIDE = 3e-6  # relative: what is asked, below M
 ITERATIONS, EVALUATIONS = 45, 60
 AROUND_END, LOOKS = 0.02, 6  # logarithms of tau_I and tau_D about the end of a search, and how often
-FLAT = 1e-13  # second difference of log|S| that is rounding
+BEND_ROUNDING = 1e-13  # second difference of log|S| that is rounding
 SLACK = 1.0  # of a constraint that is not there
 REACH = math.log(1e4)  # of each variable from where it begins
 ZOOM = np.linspace(0.0, 1.0, 9)
@@ -138,7 +138,7 @@ class _Search:
     def _settled(self, x: np.ndarray) -> None:
         """After each accepted step."""
         at = self._at(x)
-        if abs(at.f - self.accepted) < SETTLED and at.g.min() > -VIOLATED:
+        if abs(at.f - self.accepted) < CRITERION_SETTLED and at.g.min() > -VIOLATED:
             raise StopIteration
         self.accepted = at.f
 
@@ -198,7 +198,7 @@ class _Search:
             i = np.clip(fine.argmax(axis=1), 1, len(ZOOM) - 2)
             left, right = w[every, i - 1], w[every, i + 1]
         before, middle, after = (fine[every, i + shift] for shift in (-1, 0, 1))
-        bend = np.minimum(before - 2 * middle + after, -FLAT)
+        bend = np.minimum(before - 2 * middle + after, -BEND_ROUNDING)
         shift = np.clip((before - after) / (2 * bend), -1.0, 1.0)
         return w[every, i] + shift * (right - left) / 2, middle + shift * (after - before) / 4, of_T == 1
 

@@ -39,7 +39,7 @@ LOGARITHMIC, PHASE_STEP, LAST = 3.0, 0.14, 60.0  # theta omega: where equal step
 MARGIN = 1e3  # decades below and above all corners
 ENDS = 1e6  # one more node that far out stands for the limit
 ZOOM, ZOOMS, FINE_ZOOMS = 9, 3, 5  # nodes between the neighbours of an extremum, and how often
-NEAR = 1.03  # extrema of a run within this of its largest are looked at
+NEAR_LARGEST = 1.03  # extrema of a run within this of its largest are looked at
 LARGEST_M = 100.0
 
 
@@ -160,7 +160,8 @@ class RobustGains:
         padded = np.concatenate([[math.inf], values, [math.inf]])
         before = np.where(np.diff(run, prepend=-1) > 0, math.inf, padded[:-2])
         after = np.where(np.diff(run, append=run[-1] + 1) > 0, math.inf, padded[2:])
-        return np.flatnonzero((values <= before) & (values <= after) & (values <= smallest[run] + math.log(NEAR)))
+        near = values <= smallest[run] + math.log(NEAR_LARGEST)
+        return np.flatnonzero((values <= before) & (values <= after) & near)
 
     def _refined(
         self, shapes: Shapes, c: float, owner: np.ndarray, column: np.ndarray, upper: np.ndarray, zooms: int

@@ -21,8 +21,8 @@ from simc_core.sensitivity.nested_response import Ms_of
 FASTEST, SLOWEST, SPEEDS = 1e-2, 1e2, 65  # in units of the scale
 OMEGAS = 240
 ZOOM, ZOOMS = 33, 3  # frequencies between the neighbours of a peak, and how often: omega to 1e-5, |S| to 1e-10
-PRECISION = 1e-10  # of log tau
-EQUAL = 1e-8  # of the peaks
+LOG_TAU_PRECISION = 1e-10  # of log tau
+EQUAL_PEAKS = 1e-8  # of the peaks
 HIGHEST = 1e6  # peaks beyond are as good as infinite
 TRIED = 12  # loops of small Ms that are tried for an answer in the error message
 
@@ -82,7 +82,7 @@ class _Peaks:
 def _polished(at: At, Ms: float, low: float, high: float, search: _Peaks) -> float | None:
     """Where the peak is Ms; None where the grid saw a crossing that is none."""
     found = _root(at, Ms, low, high, search.refined)
-    if found is not None and abs(Ms_of(at(found)) / Ms - 1) < EQUAL:
+    if found is not None and abs(Ms_of(at(found)) / Ms - 1) < EQUAL_PEAKS:
         return found
     return _root(at, Ms, low, high, lambda loop: min(Ms_of(loop), HIGHEST))
 
@@ -94,7 +94,7 @@ def _root(at: At, Ms: float, low: float, high: float, peak: Callable[[NestedLoop
     ends = math.log(low), math.log(high)
     if excess(ends[0]) * excess(ends[1]) > 0:
         return None
-    return math.exp(brentq(excess, *ends, xtol=PRECISION))
+    return math.exp(brentq(excess, *ends, xtol=LOG_TAU_PRECISION))
 
 
 def _stable(loop: NestedLoops) -> bool:

@@ -17,7 +17,7 @@ from simc_core.plants.plant import Plant
 
 POINTS = 600
 RISEN = 1 - math.exp(-1)
-SETTLED = 4.0  # spreads of the decay after which a stable response is at rest to 2 %
+SPREADS_TO_REST = 4.0  # spreads of the decay after which a stable response is at rest to 2 %
 GROWN = 3.0  # time constants of an unstable pole that are shown
 MOST_PERIODS = 15.0  # of an oscillation that hardly decays
 
@@ -79,12 +79,12 @@ def step_horizon(plant: Plant) -> float:
     decay = [*plant.lags, *(_envelope(tau, zeta) for tau, zeta in plant.lag_pairs)]
     total = sum(plant.lags) + sum(2 * zeta * tau for tau, zeta in plant.lag_pairs)
     if decay:  # n equal lags spread like sqrt(n) round the sum of all
-        return plant.theta + total + SETTLED * float(np.linalg.norm(decay))
-    return 3 * plant.theta or SETTLED
+        return plant.theta + total + SPREADS_TO_REST * float(np.linalg.norm(decay))
+    return 3 * plant.theta or SPREADS_TO_REST
 
 
 def _envelope(tau: float, zeta: float) -> float:
     """Time constant of the envelope of a pair, of its slower part if it does not oscillate."""
     if zeta >= 1:
         return tau * (zeta + np.sqrt(zeta * zeta - 1))
-    return tau / max(zeta, SETTLED / (2 * np.pi * MOST_PERIODS))
+    return tau / max(zeta, SPREADS_TO_REST / (2 * np.pi * MOST_PERIODS))

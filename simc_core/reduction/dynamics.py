@@ -14,7 +14,7 @@ from simc_core.plants.plant import Plant
 from simc_core.reduction.records import BudgetEntry, Step
 
 OSCILLATING = 0.7  # damping below which a pair is not two lags any more
-SAME = 1e-9  # relative; a zero and a lag this close are one factor typed twice
+SAME_FACTOR = 1e-9  # relative; a zero and a lag this close are one factor typed twice
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +136,7 @@ def _cancelled_lags(
 
 
 def _same(a: float, b: float) -> bool:
-    return math.isclose(a, b, rel_tol=SAME)
+    return math.isclose(a, b, rel_tol=SAME_FACTOR)
 
 
 def _refuse(integrators: int, unstable: list[float], pairs: list[tuple[float, float]], lags: list[float]) -> None:

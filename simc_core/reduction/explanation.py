@@ -26,13 +26,18 @@ WHERE = {
 }
 
 
-def steps(parts: Dynamics, trial: TrialReduction, h: float, candidates: tuple[Candidate, ...]) -> tuple[Step, ...]:
-    """What was done, in order."""
+HALVED = (("h/2", "sampling", "half the sampling period"), ("tau_F/2", "filter", "half the filter time"))
+
+
+def steps(
+    parts: Dynamics, trial: TrialReduction, late: tuple[float, float], candidates: tuple[Candidate, ...]
+) -> tuple[Step, ...]:
+    """What was done, in order. late: h and tau_F."""
     chosen = next(candidate for candidate in candidates if candidate.chosen)
     told = [*parts.steps]
     told += [_match_step(match, chosen.theta) for match in trial.removal.matches]
     told += _half_rule_steps(trial)
-    told.append(_delay_step(parts, trial, h, chosen.theta))
+    told.append(_delay_step(parts, trial, late, chosen.theta))
     if isinstance(chosen.model, SecondOrderDelay) and _swapped(trial):
         larger, smaller = chosen.model.tau1, chosen.model.tau2
         text = f"tau2 = {number(larger)} came out larger than tau1 = {number(smaller)}: the two change places."
@@ -46,8 +51,8 @@ def steps(parts: Dynamics, trial: TrialReduction, h: float, candidates: tuple[Ca
     return tuple(told)
 
 
-def budget(parts: Dynamics, trial: TrialReduction, h: float) -> tuple[BudgetEntry, ...]:
-    """What became of every lag, zero and delay of the plant."""
+def budget(parts: Dynamics, trial: TrialReduction, late: tuple[float, float]) -> tuple[BudgetEntry, ...]:
+    """What became of every lag, zero and delay of the plant, and of `late`, h and tau_F."""
     pieces: dict[int, list[tuple[str, float]]] = {i: [] for i in range(len(parts.lags))}
     origin: list[list[tuple[str, float]]] = [[] for _ in range(parts.integrators)]
     for match in trial.removal.matches:
@@ -76,8 +81,9 @@ def budget(parts: Dynamics, trial: TrialReduction, h: float) -> tuple[BudgetEntr
         entries.append(
             BudgetEntry(f"dead time {number(parts.theta)}", "dead time", parts.theta, (("theta", parts.theta),))
         )
-    if h:
-        entries.append(BudgetEntry(f"sampling h/2 = {number(h / 2)}", "sampling", h / 2, (("theta", h / 2),)))
+    for time, (symbol, kind, _) in zip(late, HALVED, strict=True):
+        if time:
+            entries.append(BudgetEntry(f"{kind} {symbol} = {number(time / 2)}", kind, time / 2, (("theta", time / 2),)))
     return (*entries, *parts.cancelled)
 
 
@@ -193,12 +199,13 @@ def _half_rule_steps(trial: TrialReduction) -> list[Step]:
     return told
 
 
-def _delay_step(parts: Dynamics, trial: TrialReduction, h: float, theta: float) -> Step:
+def _delay_step(parts: Dynamics, trial: TrialReduction, late: tuple[float, float], theta: float) -> Step:
     """The sum that makes the effective delay."""
     terms = [("dead time", parts.theta)] if parts.theta else []
     terms += [("lag", amount) for _, where, amount in _allocation(trial) if where == "theta"]
     terms += [("inverse response zero", T) for T in parts.inverse]
-    terms += [("h/2", h / 2)] if h else []
+    halved = [(time / 2, *words) for time, words in zip(late, HALVED, strict=True) if time]
+    terms += [(symbol, half) for half, symbol, *_ in halved]
     subtracted = [match.T0 for match in trial.removal.matches if match.rule == "1998 small"]
     total = " + ".join(latex_number(amount) for _, amount in terms) or "0"
     total += "".join(f" - {latex_number(T)}" for T in subtracted)
@@ -208,7 +215,7 @@ def _delay_step(parts: Dynamics, trial: TrialReduction, h: float, theta: float) 
         *(["the dead time"] if parts.theta else []),
         *(["the rest of the lags"] if any(kind == "lag" for kind, _ in terms) else []),
         *(["the right-half-plane zeros"] if parts.inverse else []),
-        *(["half the sampling period"] if h else []),
+        *(said for *_, said in halved),
     ]
     text = f"Effective dead time: {', '.join(sources) or 'nothing adds to it'}"
     text += ", less the small zeros." if subtracted else "."

@@ -1,11 +1,12 @@
 """The half rule: from a plant to a first- or second-order model with effective delay [SK03 eq. 10-11; SK98; V06].
 
-Lags sorted tau_10 >= tau_20 >= ..., T_j^inv = -T_j of the right-half-plane zeros, h the sampling period:
+Lags sorted tau_10 >= tau_20 >= ..., T_j^inv = -T_j of the right-half-plane zeros, h the sampling period,
+tau_F a filter:
 
     order 1   tau1 = tau_10 + tau_20/2
-              theta = theta_0 + tau_20/2 + sum_{i>=3} tau_i0 + sum T_j^inv + h/2
+              theta = theta_0 + tau_20/2 + sum_{i>=3} tau_i0 + sum T_j^inv + h/2 + tau_F/2
     order 2   tau1 = tau_10, tau2 = tau_20 + tau_30/2
-              theta = theta_0 + tau_30/2 + sum_{i>=4} tau_i0 + sum T_j^inv + h/2
+              theta = theta_0 + tau_30/2 + sum_{i>=4} tau_i0 + sum T_j^inv + h/2 + tau_F/2
 
 An integrator counts as a lag without limit. Behind two integrators, an unstable or an oscillating pole the
 small lags go to the delay whole: there is no slow lag that could take half of the largest.
@@ -21,6 +22,7 @@ import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache, partial
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
@@ -32,7 +34,7 @@ from simc_core.reduction.equal_peak import at_equal_peak, compare_orders
 from simc_core.reduction.explanation import budget, notes, steps
 from simc_core.reduction.records import LARGEST_MS, Candidate, Reduction
 from simc_core.reduction.split import TrialReduction, delay_of, model_of, resolved, shape_of
-from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, remove_leads
+from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, Removal, remove_leads
 from simc_core.reduction.zeros_1998 import remove_leads_1998
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
@@ -40,10 +42,12 @@ from simc_core.sensitivity.margins import margins
 RULES = ("2003", "1998")
 MOST_PROBES = 400  # of theta; median 18 for two zeros, 100 for six, 240 for a dozen. Beyond this some may be missed
 INSIDE = 0.414  # where an interval is probed; not the middle, where symmetric plants have their changes
-SAME = 1e-9  # relative; two delays this close are one
+SAME_DELAY = 1e-9  # relative; two delays this close are one
+_Reduced = tuple[tuple[Candidate, ...], TrialReduction]
+_Removed = Callable[[float], tuple[Removal, tuple[float, ...]]]
 
 
-def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003") -> Reduction:
+def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003", tau_F: float = 0.0) -> Reduction:
     """Reduce `plant` to a first- or second-order model with effective dead time.
 
     Of several self-consistent delays > 0 the one is taken whose SIMC loop round the ORIGINAL plant has the smallest
@@ -60,6 +64,9 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
         Sampling period of a digital controller, in the user's time unit; 0 for none. Half of it is added to theta.
     rules : str
         For positive numerator time constants: "2003" (T1-T3), or "1998" (small ones are subtracted from theta).
+    tau_F : float
+        Time constant of a filter that the controller has and that the rule does not know, such as that of the box it
+        is typed into; 0 for none. Half of it is added to theta.
 
     Returns
     -------
@@ -71,7 +78,7 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     NotReducible
         The plant has no SIMC model.
     InvalidParameter
-        order, h or rules out of bounds.
+        order, h, rules or tau_F out of bounds.
 
     References
     ----------
@@ -86,22 +93,25 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003")
     FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
     """
     order = checks.whole("order", order, 1, 2)
-    h = checks.optional_time("h", h)
+    h, tau_F = checks.optional_time("h", h), checks.optional_time("tau_F", tau_F)
+    late = h + tau_F
     if rules not in RULES:
         raise InvalidParameter(f'rules must be "2003" or "1998", got {rules!r}')
     parts = dynamics(plant)
-    candidates, trial = _reduce(plant, parts, order, h, rules)
+    removed = lru_cache(maxsize=None)(partial(_removed, parts))
+    reduce = partial(_reduce, plant, parts, removed, late, rules)
+    candidates, trial = reduce(order)
     chosen = next(candidate for candidate in candidates if candidate.chosen)
-    other = chosen.model if order == 2 else _chosen(plant, parts, 2, h, rules)
+    other = chosen.model if order == 2 else _chosen(reduce(2))
     orders = None
     if isinstance(other, SecondOrderDelay | IntegratingDelay):
-        first = chosen.model if order == 1 else _chosen(plant, parts, 1, h, rules)
+        first = chosen.model if order == 1 else _chosen(reduce(1))
         orders = compare_orders(plant, first, other)
     return Reduction(
         chosen.model,
-        steps(parts, trial, h, candidates),
+        steps(parts, trial, (h, tau_F), candidates),
         tuple(candidate.model for candidate in candidates if not candidate.chosen),
-        budget(parts, trial, h),
+        budget(parts, trial, (h, tau_F)),
         candidates,
         notes(parts, chosen.model, order, orders),
         orders,
@@ -138,54 +148,59 @@ def reduced_model(plant: Plant, order: int = 1) -> Model:
     >>> reduced_model(parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))"))
     FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
     """
-    return _chosen(plant, dynamics(plant), checks.whole("order", order, 1, 2), 0.0, "2003")
+    parts = dynamics(plant)
+    removed = partial(_removed, parts)
+    return _chosen(_reduce(plant, parts, removed, 0.0, "2003", checks.whole("order", order, 1, 2)))
 
 
-def _chosen(plant: Plant, parts: Dynamics, order: int, h: float, rules: str) -> Model:
-    candidates, _ = _reduce(plant, parts, order, h, rules)
-    return next(candidate.model for candidate in candidates if candidate.chosen)
+def _chosen(reduced: _Reduced) -> Model:
+    return next(candidate.model for candidate in reduced[0] if candidate.chosen)
 
 
-def _reduce(
-    plant: Plant, parts: Dynamics, order: int, h: float, rules: str
-) -> tuple[tuple[Candidate, ...], TrialReduction]:
+def _reduce(plant: Plant, parts: Dynamics, removed: _Removed, late: float, rules: str, order: int) -> _Reduced:
     """All candidates, smallest delay first, one of them chosen, and how that one came about."""
     if rules == "1998":
-        found = [_at_1998(parts, order, h)]
+        found = [_at_1998(parts, order, late)]
     elif not parts.leads:  # nothing depends on the theta that is assumed
-        trial = _at(parts, order, h, 0.0)
+        trial = _at(parts, removed, order, late, 0.0)
         found = [resolved(trial, trial.theta.at)]
     else:
-        found = _self_consistent(lambda theta: _at(parts, order, h, theta), _longest_delay(parts, h))
+        found = _self_consistent(lambda theta: _at(parts, removed, order, late, theta), _longest_delay(parts, late))
     models = [model_of(parts, trial) for trial in found]
     candidates = _choose(plant, models)
     chosen = next(i for i, candidate in enumerate(candidates) if candidate.chosen)
     return candidates, found[chosen]
 
 
-def _longest_delay(parts: Dynamics, h: float) -> float:
-    return parts.theta + sum(parts.lags) + sum(parts.inverse) + h / 2
+def _longest_delay(parts: Dynamics, late: float) -> float:
+    return parts.theta + sum(parts.lags) + sum(parts.inverse) + late / 2
 
 
-def _at(parts: Dynamics, order: int, h: float, theta: float) -> TrialReduction:
-    """The rules of 2003 with `theta` assumed; the line `theta` of the outcome is what comes out."""
+def _removed(parts: Dynamics, theta: float) -> tuple[Removal, tuple[float, ...]]:
+    """The rules of 2003 for zeros with `theta` assumed, for either order; and the theta at which they change."""
     comparisons = Comparisons(theta)
     lags = [Lag(i, LineInTheta(tau)) for i, tau in enumerate(parts.lags)]
     removal = remove_leads(list(enumerate(parts.leads)), lags, parts.integrators, comparisons)
+    return removal, tuple(set(comparisons.turning_points))
+
+
+def _at(parts: Dynamics, removed: _Removed, order: int, late: float, theta: float) -> TrialReduction:
+    """The rules of 2003 with `theta` assumed; the line `theta` of the outcome is what comes out."""
+    removal, turning_points = removed(theta)
     shape = shape_of(parts, order, removal.integrators)
-    return TrialReduction(removal, shape, delay_of(parts, removal.lags, shape, h), tuple(comparisons.turning_points))
+    return TrialReduction(removal, shape, delay_of(parts, removal.lags, shape, late), turning_points)
 
 
-def _at_1998(parts: Dynamics, order: int, h: float) -> TrialReduction:
+def _at_1998(parts: Dynamics, order: int, late: float) -> TrialReduction:
     """The rules of 1998; nothing in them depends on theta."""
 
     def delay(lags: list[Lag], integrators: int) -> float:
-        return delay_of(parts, lags, shape_of(parts, order, integrators), h).at
+        return delay_of(parts, lags, shape_of(parts, order, integrators), late).at
 
     lags = [Lag(i, LineInTheta(tau)) for i, tau in enumerate(parts.lags)]
     removal = remove_leads_1998(list(enumerate(parts.leads)), lags, parts.integrators, delay)
     shape = shape_of(parts, order, removal.integrators)
-    theta = delay_of(parts, removal.lags, shape, h).at - removal.subtracted
+    theta = delay_of(parts, removal.lags, shape, late).at - removal.subtracted
     return TrialReduction(removal, shape, LineInTheta(theta), ())
 
 
@@ -205,7 +220,7 @@ def _self_consistent(at: Callable[[float], TrialReduction], longest: float) -> l
     probe(0.0)
     while intervals and len(probed) < MOST_PROBES:
         low, high = intervals.popleft()
-        if high - low <= SAME * longest:
+        if high - low <= SAME_DELAY * longest:
             continue
         theta = low + INSIDE * (high - low)
         turning_points = probe(theta).turning_points
@@ -218,16 +233,16 @@ def _self_consistent(at: Callable[[float], TrialReduction], longest: float) -> l
             probe(above)
             intervals.append((above, high))
     found: list[TrialReduction] = []
-    for theta in sorted(value for value in proposed if 0 <= value <= longest * (1 + SAME)):
+    for theta in sorted(value for value in proposed if 0 <= value <= longest * (1 + SAME_DELAY)):
         trial = at(theta)
         value = trial.theta(theta)
-        if abs(value - theta) <= SAME * longest and not any(_same(value, other, longest) for other in found):
+        if abs(value - theta) <= SAME_DELAY * longest and not any(_same(value, other, longest) for other in found):
             found.append(resolved(trial, theta))
     return found or [_nearest(probed)]
 
 
 def _same(theta: float, other: TrialReduction, longest: float) -> bool:
-    return abs(theta - other.theta.at) <= 2 * SAME * longest
+    return abs(theta - other.theta.at) <= 2 * SAME_DELAY * longest
 
 
 def _nearest(probed: list[tuple[float, TrialReduction]]) -> TrialReduction:

@@ -39,7 +39,7 @@ class BudgetEntry:
     ----------
     label : str
         Such as "lag 6".
-    kind : {"lag", "pair", "lead", "inverse", "dead time", "sampling", "integrator", "unstable"}
+    kind : {"lag", "pair", "lead", "inverse", "dead time", "sampling", "filter", "integrator", "unstable"}
         What it is.
     amount : float
         Its time, in the user's unit; math.inf for an integrator.

@@ -53,12 +53,14 @@ def shape_of(parts: Dynamics, order: int, integrators: int) -> Shape:
     return Shape(("tau1", "tau2"), "tau2") if order == 2 else Shape(("tau1",), "tau1")
 
 
-def delay_of(parts: Dynamics, lags: Iterable[Lag], shape: Shape, h: float) -> LineInTheta:
+def delay_of(parts: Dynamics, lags: Iterable[Lag], shape: Shape, late: float) -> LineInTheta:
     """Effective delay of the half rule for `lags`, largest first."""
     rest = [lag.tau for lag in list(lags)[len(shape.kept) :]]
     weights = [0.5 if shape.absorber and i == 0 else 1.0 for i in range(len(rest))]
     return LineInTheta(
-        math.fsum([parts.theta, *parts.inverse, h / 2, *(w * line.at for w, line in zip(weights, rest, strict=True))]),
+        math.fsum(
+            [parts.theta, *parts.inverse, late / 2, *(w * line.at for w, line in zip(weights, rest, strict=True))]
+        ),
         math.fsum(w * line.slope for w, line in zip(weights, rest, strict=True)),
     )
 

@@ -23,17 +23,17 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from simc_core.sensitivity.log_response import LARGEST, FactoredResponse, Response, ResponseBatch, sensitivities
+from simc_core.sensitivity.log_response import LARGEST_LOG_L, FactoredResponse, Response, ResponseBatch, sensitivities
 from simc_core.sensitivity.search_grid import Evaluate, Grid, sampled, search_grid
 
 TOGETHER = 32  # loops; more do not fit the cache
-FLAT = 1e-10  # d log|S|/d log omega below which there is only rounding
-SETTLED = np.array([1e-7, 1e-7, 1e-6, 1e-6])  # in widths of the bracket: Newton squares it, and peaks are flat
-ROUNDING = 4e-16
-CLOSE = 1e-5  # |arg(-L)| before the last step to a phase crossing is smaller
-FAR = 99.0  # |log|L|| at a phase crossing is smaller
-STEPS = 70  # of the polishing; two are usual
-SURE = 5  # steps after which every other one halves the bracket
+FLATTEST_PEAK = 1e-10  # d log|S|/d log omega below which there is only rounding
+LAST_STEP = np.array([1e-7, 1e-7, 1e-6, 1e-6])  # in widths of the bracket: Newton squares it, and peaks are flat
+OMEGA_ROUNDING = 4e-16  # relative
+LARGEST_PHASE = 1e-5  # |arg(-L)| before the last step to a phase crossing is smaller
+LARGEST_LOG_GAIN = 99.0  # |log|L|| at a phase crossing is smaller
+MOST_STEPS = 70  # of the polishing; two are usual
+STEPS_BEFORE_HALVING = 5  # steps after which every other one halves the bracket
 GAIN, PHASE, S_PEAK, T_PEAK = range(4)
 
 Known = TypeVar("Known")  # what else is known where a function was evaluated
@@ -130,7 +130,7 @@ def _brackets(grid: Grid, functions: np.ndarray, changes: np.ndarray) -> _Bracke
     holds, values = changes.copy(), functions[0]
     holds[PHASE] &= np.abs(values[PHASE, :-1] - values[PHASE, 1:]) < math.pi  # arg(-L) = 0, not its jump at pi
     peaks = values[S_PEAK:]
-    holds[S_PEAK:] &= (peaks[:, :-1] - peaks[:, 1:]) * grid.omega[1:] > FLAT  # not valleys
+    holds[S_PEAK:] &= (peaks[:, :-1] - peaks[:, 1:]) * grid.omega[1:] > FLATTEST_PEAK  # not valleys
     holds[PHASE:] &= grid.resolved
     holds[GAIN] &= grid.inside
     kind, at = np.nonzero(holds)
@@ -163,7 +163,7 @@ def _hidden(evaluate: Evaluate, grid: Grid, functions: np.ndarray, changes: np.n
         return parts(samples[1]), parts(samples[2]), samples
 
     samples = grid.samples[:, [at, at + 1]]
-    middle, _, _, inner = _zeros(slope, np.array([omega, parts(samples[1]), parts(samples[2])]), SETTLED[kind])
+    middle, _, _, inner = _zeros(slope, np.array([omega, parts(samples[1]), parts(samples[2])]), LAST_STEP[kind])
     i = np.flatnonzero(np.where(is_gain, inner[0].real, from_negative(inner[0])) * outer < 0)
     if not i.size:
         return None
@@ -184,11 +184,12 @@ def _polished(evaluate: Evaluate, brackets: _Brackets) -> tuple[np.ndarray, np.n
         value, slope = _functions(log, first, second, *sensitivities(log))[:, kind, each]
         return value, slope, (log, first)
 
-    omega, step, value, (log, first) = _zeros(function, ends, SETTLED[kind])
+    omega, step, value, (log, first) = _zeros(function, ends, LAST_STEP[kind])
     log = log + step * first
     S, T = sensitivities(log)
-    what = np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST)), np.abs(S), np.abs(T)])
-    crossed = (np.abs(value) < CLOSE) & (np.abs(log.real) < FAR)  # no jump by pi at an undamped root
+    what = np.array([from_negative(log), np.exp(np.minimum(log.real, LARGEST_LOG_L)), np.abs(S), np.abs(T)])
+    # no jump by pi at an undamped root
+    crossed = (np.abs(value) < LARGEST_PHASE) & (np.abs(log.real) < LARGEST_LOG_GAIN)
     return omega + step, what, crossed | (kind != PHASE)
 
 
@@ -202,20 +203,20 @@ def _zeros(
     Returns the last omega, the Newton step from there to the zero, the value at omega, and what else is known there.
     """
     low, high = ends[0]
-    small = np.maximum(settled * (high - low), ROUNDING * high)  # the grid resolves what bends the function
+    small = np.maximum(settled * (high - low), OMEGA_ROUNDING * high)  # the grid resolves what bends the function
     with np.errstate(divide="ignore", invalid="ignore"):
         omega = _guess(*ends)
-        for number in range(STEPS):
+        for number in range(MOST_STEPS):
             value, slope, known = function(omega)
             step = -value / slope
             near = done = np.abs(step) <= small
-            if number > SURE:
-                done = near | (ends[0, 1] - ends[0, 0] <= ROUNDING * omega)
+            if number > STEPS_BEFORE_HALVING:
+                done = near | (ends[0, 1] - ends[0, 0] <= OMEGA_ROUNDING * omega)
             if done.all():
                 break
             below = (value < 0) == (ends[1, 0] < 0)
             ends = np.where([below, ~below], np.array([omega, value, slope])[:, None], ends)
-            halve = number > SURE and number % 2
+            halve = number > STEPS_BEFORE_HALVING and number % 2
             omega = np.where(done, omega, np.sqrt(ends[0, 0] * ends[0, 1]) if halve else _guess(*ends))
     return omega, np.where(near, step, 0.0), value, known
 

@@ -15,7 +15,7 @@ from simc_core.loops.loop import Loop
 from simc_core.sensitivity.log_response import FactoredResponse, sensitivities
 from simc_core.sensitivity.search_grid import search_grid
 
-PRECISION = 1e-12
+LOG_OMEGA_PRECISION = 1e-12
 
 
 def delay_bound(loop: Loop) -> float:
@@ -46,6 +46,6 @@ def delay_bound(loop: Loop) -> float:
         lambda x: float(allowed(np.full(1, math.exp(x)))[0]),
         bounds=ends,
         method="bounded",
-        options={"xatol": PRECISION},
+        options={"xatol": LOG_OMEGA_PRECISION},
     )
     return min(float(found.fun), float(values[i]))

@@ -29,7 +29,7 @@ from simc_core.algebra.factors import Factored, log_product, product, roots_of, 
 Logs = tuple[np.ndarray, np.ndarray, np.ndarray]  # log L, first and second derivative in omega
 
 LEAST = 1e-20  # zeta of an undamped pair, less than rounding, so that no frequency is exactly its own
-LARGEST = 600.0  # of log|L| where S and T are wanted
+LARGEST_LOG_L = 600.0  # of log|L| where S and T are wanted
 
 
 class Asymptote(NamedTuple):
@@ -192,8 +192,8 @@ class Series:
 
 def sensitivities(log: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """S and T from log L, also where L overflows."""
-    if np.maximum.reduce(log.real, initial=0.0) > LARGEST:
-        log = np.minimum(log.real, LARGEST) + 1j * log.imag
+    if np.maximum.reduce(log.real, initial=0.0) > LARGEST_LOG_L:
+        log = np.minimum(log.real, LARGEST_LOG_L) + 1j * log.imag
     L = np.exp(log)
     S = 1 / (1 + L)
     return S, L * S

@@ -54,8 +54,8 @@ class Margins:
     stable: bool
 
 
-ROUNDING = 1e-12
-BEYOND = 1e-6  # what the envelope is good for
+SAME_LIMIT = 1e-12  # relative: gain margins, or peaks, that differ by rounding alone
+ENVELOPE_ERROR = 1e-6  # what the envelope is good for
 
 NOT_STABLE = Margins(**{field.name: math.nan for field in fields(Margins)[:-1]}, stable=False)
 
@@ -126,7 +126,7 @@ def _gain_margins(limits: tuple[float, float], found: Crossings) -> tuple[float,
     crossed += [(-limit, omega) for limit, omega in zip(limits, (0.0, math.inf), strict=True) if -math.inf < limit < 0]
     above = [(1 / gain, omega) for gain, omega in crossed if gain < 1]
     GM, _ = min(above, default=(math.inf, math.nan))
-    omega_180 = min([omega for factor, omega in above if factor <= GM * (1 + ROUNDING)], default=math.nan)
+    omega_180 = min([omega for factor, omega in above if factor <= GM * (1 + SAME_LIMIT)], default=math.nan)
     return GM, max([1 / gain for gain, _ in crossed if gain >= 1], default=0.0), omega_180
 
 
@@ -146,6 +146,6 @@ def _peak(peaks: np.ndarray, omegas: np.ndarray, ends: tuple[float, float], enve
     """The largest of the peaks, of the values at omega = 0 and at infinity, and of the envelope, and where it is."""
     best = max(zip(ends, (0.0, math.inf), strict=True))
     highest = max(zip(peaks.tolist(), omegas.tolist(), strict=True), default=best)
-    if highest[0] > best[0] * (1 + ROUNDING):  # else it is rounding on the way to an end
+    if highest[0] > best[0] * (1 + SAME_LIMIT):  # else it is rounding on the way to an end
         best = highest
-    return (envelope, math.inf) if envelope > best[0] * (1 + BEYOND) else best
+    return (envelope, math.inf) if envelope > best[0] * (1 + ENVELOPE_ERROR) else best

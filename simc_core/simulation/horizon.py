@@ -10,7 +10,7 @@ from simc_core.errors import SimcError
 from simc_core.loops.loop import Loop
 from simc_core.simulation.scenario import Scenario
 
-SETTLED = 4.6  # time constants of the slowest mode, e^{-4.6} = 1 %
+TIME_CONSTANTS_TO_REST = 4.6  # time constants of the slowest mode, e^{-4.6} = 1 %
 GROWN = 6.0  # time constants of an unstable mode that are shown
 LONGEST = 1e5  # default horizon, in units of all times of plant and controller together
 NICE = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
@@ -43,7 +43,7 @@ def settling_horizon(loop: Loop) -> float:
     if len(growing):
         time = GROWN / float(np.max(growing))
     elif len(falling):
-        time = SETTLED / float(np.min(falling)) + loop.plant.theta
+        time = TIME_CONSTANTS_TO_REST / float(np.min(falling)) + loop.plant.theta
     else:
         time = 10 * scale
     return round_up(min(max(time, 3 * loop.plant.theta, scale * 1e-6), LONGEST * scale))

@@ -23,7 +23,7 @@ from simc_core.simulation.rise import risen
 from simc_core.simulation.several_delays.network import Network, integral_states, network
 from simc_core.simulation.simulate_nested import NestedResponse, horizon
 
-STEPS, MOST_STEPS = 3000, 40_000
+FEWEST_STEPS, MOST_STEPS = 3000, 40_000
 PROTECTIONS = ("none", "inner", "both")
 
 
@@ -69,11 +69,11 @@ def limited(
 def _step(system: Network, t_end: float) -> float:
     """A part of the shortest dead time, so that the jump at t = 0 comes back at an instant of the grid."""
     if not system.theta.size:
-        return t_end / STEPS
+        return t_end / FEWEST_STEPS
     shortest = float(np.min(system.theta))
     if t_end / shortest > MOST_STEPS:
         raise InvalidParameter(f"t_end must be at most {MOST_STEPS} theta = {MOST_STEPS * shortest:g}, got {t_end:g}")
-    return shortest / whole_steps(STEPS * shortest / t_end)
+    return shortest / whole_steps(FEWEST_STEPS * shortest / t_end)
 
 
 def _tracking(loops: NestedLoops, n: int, protection: str) -> np.ndarray:

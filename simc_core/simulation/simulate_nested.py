@@ -14,8 +14,8 @@ from simc_core.simulation.scenario import Scenario
 from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.superposition import superposed
 
-SETTLED = 0.01  # of the largest value; where a default horizon ends
-BEGIN = 2.0  # first horizon, in units of all times of the loops together
+SETTLED_PART = 0.01  # of the largest value; where a default horizon ends
+FIRST_HORIZON = 2.0  # first horizon, in units of all times of the loops together
 MOST_DOUBLINGS = 7
 GROWN = 30.0  # an unstable response is shown until it is this large
 SAMPLES = 24  # instants in a piece at which a horizon is judged
@@ -122,13 +122,13 @@ def _times(loop: NestedLoops, scenario: Scenario, heights: np.ndarray) -> tuple[
 
 def horizon(loop: NestedLoops) -> float:
     """A round time in which all unit steps settle to 1 %, or an unstable response has grown enough to be seen."""
-    steps, t_end = steps_of(loop), BEGIN * time_scale(loop)
+    steps, t_end = steps_of(loop), FIRST_HORIZON * time_scale(loop)
     for _ in range(MOST_DOUBLINGS):
         t, values = _sampled(steps.run(t_end), t_end, len(loop.blocks))
         size = np.abs(values)
         if size.max() > GROWN * max(size[t < t[-1] / 4].max(), 1.0):
             return round_up(float(t[np.argmax(size.max(axis=(1, 2)) > GROWN)]))
-        away = np.abs(values - values[-1]) > SETTLED * size.max(axis=0)
+        away = np.abs(values - values[-1]) > SETTLED_PART * size.max(axis=0)
         last = int(np.max(np.flatnonzero(away.any(axis=(1, 2))), initial=0))
         if t[last] < 0.7 * t[-1]:
             return round_up(float(t[last + 1]))

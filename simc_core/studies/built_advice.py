@@ -50,7 +50,9 @@ def sampling_not_in_tuning(of: Tuned, h: float) -> Advice | None:
     more = (h - known) / 2
     if not more > SMALL * (of.tau_c + of.model.theta):
         return None
-    text = f"The tuning allows for {number(known)}: {number(more, 3)} of dead time is missing in theta and in Ms."
+    text = f"The tuning does not allow for it: {number(more, 3)} of dead time is missing in theta and in Ms."
+    if known:
+        text = f"The tuning allows for {number(known)}: {number(more, 3)} of dead time is missing in theta and in Ms."
     if of.margins.stable and more >= of.margins.delay_margin:
         text += f" The loop bears {number(of.margins.delay_margin, 3)} more."
     remedy = "Let the half rule allow for it; with tau_c = theta the loop becomes slower."

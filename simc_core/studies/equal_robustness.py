@@ -37,7 +37,7 @@ FACTORS = np.geomspace(0.3, 6, 41)
 WIDE = np.geomspace(0.01, 30, 61)  # of rules that start from the lag, or from another unit than theta
 FROM_ELSEWHERE = ("lambda", "lee_1998", "spectral")  # rules whose F = 1 may be far from M
 BETA = 2.0  # of the desired model as published: SIMC with tau_c = theta
-PRECISION = 1e-10  # of log F
+LOG_F_PRECISION = 1e-10  # of log F
 HIGHEST = 1e6  # a peak beyond counts as no loop
 
 
@@ -199,7 +199,7 @@ def _factor(plant: Plant, detuned: Callable[[float], Controller], M: float, fact
         def excess(x: float) -> float:
             return math.log(peaks(plant, [detuned(math.exp(x))])[0] / M)
 
-        found.append(math.exp(brentq(excess, low, high, xtol=PRECISION)))
+        found.append(math.exp(brentq(excess, low, high, xtol=LOG_F_PRECISION)))
     return min(found, key=lambda factor: abs(math.log(factor)), default=None)
 
 

@@ -20,7 +20,7 @@ from simc_core.loops.loop import Loop
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
 
-LARGEST = 0.9  # a change of 100 % would leave no plant
+LARGEST_CHANGE = 0.9  # a change of 100 % would leave no plant
 SAMPLES, SEED = 24, 1979
 SYMBOLS = ("k", "theta", "tau1")
 
@@ -70,7 +70,7 @@ class Robustness:
 
 def robustness(loop: Loop, change: float = 0.2, samples: int = SAMPLES, seed: int = SEED) -> Robustness:
     """Corners and samples of the family k, theta, tau1 -change ... +change, 0 < change <= 0.9."""
-    change = checks.real("change", change, 1e-6, LARGEST)
+    change = checks.real("change", change, 1e-6, LARGEST_CHANGE)
     symbols = [symbol for symbol in SYMBOLS if _has(loop.plant, symbol)]
     signs = product((-1.0, 1.0), repeat=len(symbols))
     inside = 2 * qmc.LatinHypercube(len(symbols), seed=seed).random(samples) - 1

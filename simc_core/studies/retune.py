@@ -6,7 +6,7 @@ from simc_core.metrics.performance import Performance
 from simc_core.notation import number
 from simc_core.sensitivity.margins_of_response import Margins
 
-SAME = 0.02  # relative: a change that nobody would see
+UNSEEN_CHANGE = 0.02  # relative: a change that nobody would see
 DIGITS = 3
 
 
@@ -47,6 +47,6 @@ def what_changes(
 def _times(name: str, old: float, new: float) -> str:
     if not (math.isfinite(old) and math.isfinite(new) and old > 0 and new > 0):
         return ""
-    if abs(old / new - 1) < SAME:
+    if abs(old / new - 1) < UNSEEN_CHANGE:
         return f"{name} as before"
     return f"{name} {number(max(old / new, new / old), 2)} times {'smaller' if new < old else 'larger'}"

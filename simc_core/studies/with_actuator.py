@@ -12,13 +12,20 @@ import numpy as np
 from simc_core.certificate.verdict import stability
 from simc_core.loops.loop import Loop
 from simc_core.simulation import Scenario, TimeResponse, simulate
-from simc_core.simulation.actuator.actuation import SAME, STEPS, Actuation, Inputs, Stepped, tracking_time_in_use
+from simc_core.simulation.actuator.actuation import (
+    FEWEST_STEPS,
+    SAME_INSTANT,
+    Actuation,
+    Inputs,
+    Stepped,
+    tracking_time_in_use,
+)
 from simc_core.simulation.actuator.continuous import actuated
 from simc_core.simulation.horizon import times
 from simc_core.simulation.simulate import on_grid
 
 MOST_DOUBLINGS = 3
-MANY_STEPS = 2 * STEPS  # a course of more has a step that does not grow with the horizon, and is not doubled
+MANY_STEPS = 2 * FEWEST_STEPS  # a course of more has a step that does not grow with the horizon, and is not doubled
 STILL = 0.02  # a response that moves less than this part of its range over the last fifth has come to rest
 FINE = 4000  # instants for the integral of the linear |e|: trapezoids, good to 1e-5
 
@@ -123,10 +130,10 @@ def _linear(loop: Loop, inputs: Inputs, points: int) -> TimeResponse:
 def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuation: Actuation) -> BuiltNumbers:
     linear = _linear(loop, inputs, FINE)
     time = np.minimum(np.diff(course.t), inputs.t_end - course.t[:-1])  # of each step within the horizon
-    whole = time > SAME * inputs.t_end  # less than that is rounding, of a step that begins with the end
+    whole = time > SAME_INSTANT * inputs.t_end  # less than that is rounding, of a step that begins with the end
     time = time[whole]
     e = np.abs(np.stack([inputs.r(course.t[:-1]), inputs.r(course.t[1:])], axis=1) - course.y)[whole]
-    held = np.abs(noisy.v - noisy.u)[whole] > SAME * np.max(np.abs(noisy.u))
+    held = np.abs(noisy.v - noisy.u)[whole] > SAME_INSTANT * np.max(np.abs(noisy.u))
     moves = np.abs(np.diff(noisy.u[whole, 0])) if actuation.h else np.array([math.nan])
     return BuiltNumbers(
         (float(noisy.v[whole].min()), float(noisy.v[whole].max())),

@@ -87,3 +87,40 @@ def _noise(chance: np.random.Generator, n: int, decay: float | None) -> np.ndarr
     kept = np.exp(-decay)
     white[1:] *= np.sqrt(1 - kept**2)
     return lfilter([1.0], [1.0, -kept], white)
+
+
+def closed_loop(
+    n: int,
+    h: float,
+    k: float,
+    theta: float,
+    tau1: float,
+    Kc: float,
+    tau_I: float,
+    setpoint: np.ndarray,
+    noise: np.ndarray,
+    load: np.ndarray,
+) -> Trend:
+    """A sampled PI (tau_I inf: P) around k e^{-theta s}/(tau1 s + 1), OP held between samples of distance h.
+
+    theta lies anywhere: the held OP that arrives in one interval has at most two values, each moved exactly. `load` is
+    added to OP at the process, `noise` to the measurement.
+    """
+    y, u, state = np.zeros(n), np.zeros(n), 0.0
+    late = int(np.ceil(theta / h))
+    share = late * h - theta  # of an interval, the later part with the newer value
+    old, new = np.exp(-(h - share) / tau1), np.exp(-share / tau1)
+    integral = 0.0
+    for i in range(n):
+        if i:
+            begun = u[i - late - 1] if i - late - 1 >= 0 else 0.0
+            after = u[i - late] if i - late >= 0 and late else begun
+            if late == 0:
+                begun = after = u[i - 1]
+            state = old * state + k * (1 - old) * (begun + load[i - 1])
+            state = new * state + k * (1 - new) * (after + load[i - 1])
+        y[i] = state + noise[i]
+        error = setpoint[i] - y[i]
+        u[i] = Kc * (error + integral)
+        integral += error * h / tau_I
+    return Trend(np.arange(n) * h, y, u, r=setpoint)

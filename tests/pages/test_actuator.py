@@ -70,7 +70,7 @@ def test_heights_noise_and_sampling_have_their_words():
     app = opened(r="2", d="0", noise="0.1", sampling="1", h="1")
     assert "Set point 2 from t = 0." in texts(app)
     assert "new value every 1" in texts(app)
-    assert "(now 1), adds h/2" in texts(app)
+    assert "The half rule allows for the sampling" in texts(app)
     assert "Largest move of u" in strip(app)
 
 
@@ -119,6 +119,7 @@ def test_a_limit_beyond_where_OP_is_now_is_refused_on_that_scale():
 
 def test_the_range_of_the_loop_sheet_is_one_click():
     app = site()
+    assert app.button("range_of_OP").label == "Limits as in the loop sheet: OP 0 to 100 [%]"
     app.button("range_of_OP").click().run()
     assert (address(app)["u_min"], address(app)["u_max"]) == ("-45", "55")
     assert "range_of_OP" not in [button.key for button in app.button]

@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from pages.common.from_data.examples import EXAMPLES
@@ -11,7 +12,7 @@ from pages.common.from_data.work import USUAL, work_on, work_on_example
 from pages.common.session import links
 from pages.common.session.design import Design, in_time_unit
 from pages.common.session.record import Chosen, Origin
-from simc_core import DataError, FirstOrderDelay, InvalidParameter, Plant
+from simc_core import DataError, FirstOrderDelay, InvalidParameter, Loop, Plant, half_rule, margins, simc
 from tests.pages.tools import address, run_page, texts
 
 TRUTH = {  # what the examples were made with; the page says so to nobody
@@ -219,3 +220,87 @@ def test_bounds_of_what_is_chosen():
         Chosen(begin=5, end=5)
     with pytest.raises(DataError, match="empty"):
         work_on("file", b"")
+
+
+def test_a_slower_tuning_is_offered_for_what_is_not_known():
+    """The tau_c that is named keeps Ms of the fitted plant well below the limit: the plants around it need the room."""
+    app = run_page("from_data", example="integrating")
+    said = next(item.value for item in app.markdown if "probability of 95 %" in item.value)
+    tau_c = float(re.search(r"= ([\d.]+) s", said)[1])
+    app.button(key="tune_robust").click().run()
+    assert not app.exception
+    design, ignored = links.decode(address(app))
+    assert not ignored
+    assert design.tuning.tau_c == pytest.approx(tau_c, rel=0.01)
+    assert design.tuning.tau_c > design.plant.theta
+    judged = margins(Loop(design.plant, simc(half_rule(design.plant).model, design.tuning.tau_c)))
+    assert judged.Ms < 1.7
+
+
+def experiment(app, title: str, **values: str):
+    app.segmented_control(key="experiment").set_value(title).run()
+    for name, text in values.items():
+        app.text_input(key=name).set_value(text).run()
+    assert not app.exception
+    return app
+
+
+def test_the_published_example_of_the_overshoot_experiment():
+    """[SS10] E2: Kc 0.919 and tau_I 3.46 from Kc0 1.5, first peak 0.7816 at 4.446, first minimum 0.5443."""
+    given = {"Kc0": "1.5", "setpoint": "1", "peak": "0.7816", "lowest": "0,5443", "peak_time": "4.446"}
+    app = experiment(
+        run_page("from_data"),
+        "Set-point overshoot",
+        **{f"experiment_overshoot_{name}": text for name, text in given.items()},
+    )
+    Kc, tau_I = map(float, re.findall(r"\*\*([\d.]+)\*\*", texts(app))[:2])
+    assert Kc == pytest.approx(0.919, abs=0.0006)
+    assert tau_I == pytest.approx(3.46, abs=0.006)
+
+
+def test_an_overshoot_that_nobody_has_a_formula_for_is_refused():
+    given = {"Kc0": "1.5", "setpoint": "1", "peak": "2", "lowest": "0.1", "peak_time": "4"}
+    app = experiment(
+        run_page("from_data"),
+        "Set-point overshoot",
+        **{f"experiment_overshoot_{name}": text for name, text in given.items()},
+    )
+    assert app.error
+    assert "Tune this model" not in [button.label for button in app.button]
+
+
+def test_a_slow_oscillation_asks_for_more_integral_time():
+    """P0 = 40, tau_I = 4: F = (40/4)^2/pi^2 = 10.1, all of it on tau_I."""
+    given = {"Kc": "0.5", "tau_I": "4", "period": "40"}
+    app = experiment(
+        run_page("from_data"),
+        "Loop that oscillates",
+        **{f"experiment_oscillation_{name}": text for name, text in given.items()},
+    )
+    assert re.search(r"\*\*40\.5\d*\*\*", texts(app))
+
+
+def test_a_relay_test_of_the_present_plant():
+    """1/((s+1)(10s+1)) e^{-0.3s}: omega_180 1.8402, gain there 0.02591; the relay shows a period of 3.5631."""
+    app = experiment(
+        run_page("from_data", plant="exp(-0.3s)/((s+1)(10s+1))"), "Relay test", experiment_relay_amplitude="1"
+    )
+    table = app.dataframe[-1].value
+    assert float(table["exact"][0]) == pytest.approx(1 / 0.02591, rel=2e-3)
+    assert float(table["exact"][1].split()[0]) == pytest.approx(2 * np.pi / 1.8402, rel=1e-3)
+    assert float(table["describing function"][1].split()[0]) == pytest.approx(3.5631, rel=1e-3)
+
+
+def test_what_is_typed_into_an_experiment_stays():
+    app = experiment(run_page("from_data"), "Relay test", experiment_relay_amplitude="-1")
+    assert app.error or "Still needed" in texts(app)
+    assert app.text_input(key="experiment_relay_amplitude").value == "-1"
+
+
+def test_every_page_tells_where_an_identified_plant_comes_from():
+    plant = FirstOrderDelay(2.0, 12.0, 60.0).plant
+    origin = Origin(plant, "FOPDT", (0.1, 1.2, 3.0), 0.97, 500, "a*b*.csv")
+    link = links.encode(replace(Design(), plant=plant, origin=origin))
+    for page in ("plant", "tuning"):
+        told = [item.proto.help for item in run_page(page, **link).caption if item.proto.help]
+        assert any("`a*b*.csv`" in text and "fit 97.0 %, 500 samples" in text and "θ 1.2" in text for text in told)

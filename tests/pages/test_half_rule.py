@@ -30,7 +30,8 @@ def test_the_model_of_the_literature_is_on_the_screen_with_its_story():
 def test_order_two_sampling_period_and_rules_change_the_model():
     assert r"\frac{e^{-4 s}}{(6 s + 1) (5 s + 1)}" in said(reduced(order="2"))  # [V06]: tau2 5, theta 4
     app = reduced(order="2")
-    app.text_input(key="widget_h").set_value("1").run()
+    app.text_input(key="half_rule_sampling").set_value("1").run()
+    app.checkbox(key="allowed_h").check().run()
     assert r"\frac{e^{-4.5 s}}{(6 s + 1) (5 s + 1)}" in said(app)  # and h/2
     assert address(app)["h"] == "1"
     zeros = "(0.3s+1)exp(-s)/((5s+1)(s+1))"

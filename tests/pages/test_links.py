@@ -43,6 +43,7 @@ tunings = st.builds(
     filter=st.floats(0, 10),
     rules=st.sampled_from(["2003", "1998"]),
     speed=st.sampled_from(["", "1.5theta", "2theta", "moderate"]),
+    tau_F=st.just(0.0) | times,
 )
 gains = st.floats(1e-3, 1e3)
 lines = st.text(st.characters(categories=("L", "N", "P", "S", "Zs")), max_size=16).map(str.strip)
@@ -105,6 +106,11 @@ homes = st.builds(
     rounding=st.sampled_from(ROUNDINGS),
     language=st.sampled_from(sorted(LANGUAGES)),
     exported=st.sampled_from(EXPORTED),
+    between=st.sampled_from(["model", "PB"]),
+    points=st.just(())
+    | st.lists(st.tuples(gains, times, times), min_size=2, max_size=5).map(
+        lambda rows: tuple((float(x), *row) for x, row in enumerate(rows))
+    ),
 )
 designs = st.builds(
     Design,
@@ -177,7 +183,7 @@ def test_the_address_of_the_default_is_short():
         ("unit", "fortnight", "s, min, h, ms"),
         ("tag", "T" * 41, "40 characters"),
         ("PV_low", "a lot", "number"),
-        ("pins", "1~2", "7 values"),
+        ("pins", "1~2", "9 values"),
         ("pins", "!".join(["1~0~2~1~0~2003"] * 5), "at most 4"),
         ("Ms_inner", "0.5", ">= 1.05"),
         ("u_min", "0.5", "u_min must be <= 0"),
@@ -282,3 +288,24 @@ def test_other_spaces_of_an_address_are_refused(text):
 def test_a_lost_plus_elsewhere_names_the_way_out():
     _, (bad,) = links.decode({"plant": "1/(s 1 3s)"})
     assert "%2B" in bad.why
+
+
+def test_there_is_one_sampling_period():
+    """What theta allows for is the sampling period or nothing; links of before, with two, keep the one of the loop."""
+    design = put(Design(), "sampling", 2.0)
+    assert (design.actuator.h, design.tuning.h) == (2, 0)
+    design = put(design, "h", 2.0)
+    assert (design.actuator.h, design.tuning.h) == (2, 2)
+    design = put(design, "sampling", 0.5)
+    assert (design.actuator.h, design.tuning.h) == (0.5, 0.5)
+    assert (put(design, "h", 0.0).actuator.h, put(design, "h", 0.0).tuning.h) == (0.5, 0)
+    assert (put(design, "sampling", 0.0).actuator.h, put(design, "sampling", 0.0).tuning.h) == (0, 0)
+    assert links.decode({"h": "3"})[0].actuator.h == 3
+    design, ignored = links.decode({"h": "3", "sampling": "2"})
+    assert (design.actuator.h, design.tuning.h, ignored) == (2, 2, [])
+
+
+def test_pinned_tunings_of_before_are_read():
+    design, ignored = links.decode({"pins": "1~0~~1~0~2003~!2~0~5~1~0.1~2003"})
+    assert not ignored
+    assert design.pins == (Tuning(), Tuning(order=2, tau_c=5.0, filter=0.1))

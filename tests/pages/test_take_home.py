@@ -195,3 +195,72 @@ def test_what_cannot_be_written_is_told_and_the_choice_stays():
         "$u_{max}$", "u_max"
     )
     assert app.selectbox(key="widget_language").value == "arduino"
+
+
+P0 = {"plant": "exp(-s)/((10s+1)(3s+1))", "order": "2", "unit": "s"}
+
+
+def Ms_of(app, column) -> float:
+    return float(app.dataframe[0].value.iloc[0][column])
+
+
+def remedy(app, words):
+    return next(button for button in app.button if button.label.startswith(words))
+
+
+def test_retuned_with_half_the_filter_of_the_box_Ms_is_what_was_promised():
+    """Filter tau_D/8 = 0.375: Ms 1.9142; with theta + tau_F/2 the settings are 4.2105, 9.5, 3 and Ms 1.6787."""
+    app = run_page("take_home", **P0, box="deltav_series")
+    assert Ms_of(app, "as typed") == 1.914
+    assert Ms_of(app, "design") == 1.609  # without a filter
+    button = remedy(app, "Retune with θ + τF/2")
+    assert button.label.endswith("Ms 1.68")
+    button.click().run()
+    assert Ms_of(app, "design") == Ms_of(app, "as typed") == 1.679
+    (typed,) = (text for text in copyables(app) if "RESET" in text)
+    numbers = dict(re.findall(r"(\w+) = ([0-9.]+)", typed))
+    assert float(numbers["GAIN"]) == pytest.approx(80 / 19, rel=1e-6)
+    assert (float(numbers["RESET"]), float(numbers["RATE"])) == (9.5, 3)
+    assert not [each for each in app.button if each.label.startswith("Retune")]
+    assert {"tau_F": "0.375", "filter": "0.125"}.items() <= address(app).items()
+
+
+@pytest.mark.parametrize("words", ["Retune with θ + τF/2 + h/2", "Retune with θ + h/2", "Sample every"])
+def test_a_remedy_does_what_its_button_says(words):
+    app = run_page("take_home", **P0, box="deltav_series", sampling="0.2")
+    assert Ms_of(app, "sampled every 0.2 s") == 2.184
+    button = remedy(app, words)
+    promised = float(button.label.split("Ms ")[1])
+    button.click().run()
+    assert Ms_of(app, app.dataframe[0].value.columns[-1]) == pytest.approx(promised, abs=5e-3)
+
+
+def test_sampling_allowed_for_keeps_Ms():
+    """FOPDT 8, 1 sampled at 0.2 and tuned with theta + h/2: Ms 1.601 (a continuous design has 1.5905)."""
+    app = run_page("take_home", plant="exp(-s)/(8s+1)", unit="s", box="matlab_pid", sampling="0.2")
+    assert Ms_of(app, "sampled every 0.2 s") == 1.691
+    remedy(app, "Retune with θ + h/2").click().run()
+    assert Ms_of(app, "sampled every 0.2 s") == pytest.approx(1.601, abs=5e-4)
+
+
+def test_what_a_box_does_not_take_comes_with_the_nearest_and_its_peak():
+    """tau_I 8000 s on a scale that ends at 3000 s; the nearest is 3000 s: Ms by an independent sweep of |1/(1 + L)|."""
+    app = run_page("take_home", plant="exp(-1000s)/(9000s+1)", unit="s", box="panasonic_fp")
+    assert "Ti of FP PID must be from 1 to 30000 s" in app.error[0].value
+    assert "the nearest is 30000" in app.error[0].value
+    omega = np.geomspace(1e-6, 1e-1, 200_000)
+    s = 1j * omega
+    (typed,) = (text for text in copyables(app) if "Kp = " in text)
+    Kp = 0.1 * float(re.search(r"Kp = ([0-9.]+)", typed)[1])
+    assert "Ti = 30000" in typed
+    L = Kp * (1 + 1 / (3000 * s)) * np.exp(-1000 * s) / (9000 * s + 1)
+    told = re.search(r"\$M_s\$ = ([0-9.]+)", texts(app))[1]
+    assert float(told) == pytest.approx(np.max(np.abs(1 / (1 + L))), rel=6e-4)
+
+
+def test_my_settings_are_not_retuned():
+    app = run_page(
+        "take_home", **P0, box="deltav_series", own="series~5~8~3~0.375~1~0", controller="own", sampling="0.2"
+    )
+    assert not [each for each in app.button if each.label.startswith("Retune")]
+    assert remedy(app, "Sample every")

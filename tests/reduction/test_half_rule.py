@@ -1,6 +1,7 @@
 """The half rule against the published reductions, conservation laws and brute force over theta."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from simc_core import (
     half_rule,
 )
 from simc_core.reduction.dynamics import dynamics
-from simc_core.reduction.half_rule import _at
+from simc_core.reduction.half_rule import _at, _removed
 from tests.oracles.published import PUBLISHED, plant_of, select
 
 TIMES = st.floats(0.01, 100)
@@ -184,7 +185,7 @@ def test_candidates_against_iteration_from_everywhere(seed):
     for start in np.linspace(0, plant.theta + sum(lags), 400):
         theta = start
         for _ in range(60):
-            theta, before = _at(parts, 1, 0.0, theta).theta(theta), theta
+            theta, before = _at(parts, partial(_removed, parts), 1, 0.0, theta).theta(theta), theta
         if math.isclose(theta, before, rel_tol=1e-12, abs_tol=1e-12):
             reached.add(round(theta, 9))
     found = {round(candidate.theta, 9) for candidate in half_rule(plant).candidates}
@@ -246,6 +247,17 @@ def test_sampling_adds_half_a_period():
     assert half_rule(plant, 1, h=1.0).model == FirstOrderDelay(1, 7.5, 8)
 
 
+def test_a_filter_that_the_rule_does_not_know_adds_half_its_time():
+    """As sampling does, and both together; each is told apart."""
+    plant = Plant(1, 3, (6, 4, 2))
+    assert half_rule(plant, 1, tau_F=1.0).model == FirstOrderDelay(1, 7.5, 8)
+    both = half_rule(plant, 1, h=1.0, tau_F=0.5)
+    assert both.model.theta == 7.75
+    (told,) = (step.text for step in both.steps if step.rule == "delay")
+    assert "half the sampling period, half the filter time" in told
+    assert {entry.kind: entry.amount for entry in both.budget}.items() >= {"sampling": 0.5, "filter": 0.25}.items()
+
+
 def test_what_pays_and_what_is_said():
     """[SK03 sect. 3.1]: order 2 pays where tau2 > theta of the second-order model, on plants without zeros."""
     assert half_rule(Plant(1, 3, (6, 4, 2))).orders.second_pays  # 5 > 4
@@ -284,6 +296,7 @@ def test_what_the_rule_does_not_cover(plant, words):
         ({"order": 1.5}, "whole number"),
         ({"h": -1}, "h must be >= 0, got -1"),
         ({"h": math.nan}, "finite"),
+        ({"tau_F": -1}, "tau_F must be >= 0, got -1"),
         ({"rules": "2005"}, 'rules must be "2003" or "1998", got \'2005\''),
     ],
 )

@@ -83,7 +83,7 @@ def test_the_loop_as_built_within_its_limits_is_the_linear_one_to_second_order(t
     inputs = Inputs(1.0, 0.4, 30.0, 60.0, 12.3, 7.7)
     errors = []
     for steps in (500, 1000, 2000):
-        monkeypatch.setattr("simc_core.simulation.actuator.continuous.STEPS", steps)
+        monkeypatch.setattr("simc_core.simulation.actuator.continuous.FEWEST_STEPS", steps)
         found = actuated(loop, Actuation(u_max=1e6), inputs)
         asked = Scenario(1.0, 0.4, 30.0, setpoint_ramp=12.3, disturbance_ramp=7.7, t=found.t[:-1])
         errors.append(np.max(np.abs(simulate(loop, asked).y - found.y[:, 0])))

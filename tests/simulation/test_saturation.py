@@ -62,7 +62,7 @@ def test_the_continuous_controller_is_of_second_order_in_the_step(monkeypatch):
     np.testing.assert_allclose(held[0], np.interp(t - 1.0, t, exact_y, left=0.0), atol=2e-4)
     results = []
     for steps in (500, 1000, 8000):
-        monkeypatch.setattr("simc_core.simulation.actuator.continuous.STEPS", steps)
+        monkeypatch.setattr("simc_core.simulation.actuator.continuous.FEWEST_STEPS", steps)
         results.append(actuated(loop, Actuation(u_max=1.3), 1.0, 0.4, 10.0, 20.0).at(t)[0])
     coarse, half = (np.abs(each - results[-1]).max() for each in results[:2])
     assert coarse / half > 3

@@ -34,7 +34,7 @@ def test_steps_of_a_dead_time_and_of_half_of_it_are_of_second_order(monkeypatch)
     scenario = Scenario(1.0, -0.25, 7.5, t=t, actuation=Actuation(u_min=-0.1, u_max=0.8, tracking_time=T_t))
     errors = []
     for parts in (1, 2, 4):
-        monkeypatch.setattr("simc_core.simulation.actuator.continuous.STEPS", parts * t_end / theta)
+        monkeypatch.setattr("simc_core.simulation.actuator.continuous.FEWEST_STEPS", parts * t_end / theta)
         errors.append(np.abs(simulate(loop, scenario).y - y).max())
     assert errors[2] < 1e-3
     assert errors[0] / errors[2] > 8  # 16 but for where u leaves a limit within a step

@@ -114,15 +114,15 @@ def _relay() -> str:
 
 
 def _sticking() -> str:
-    """The valve follows OP only where it differs by more than 2 % from where it stands."""
+    """The valve stands still until OP has gone 1 % beyond where it stands."""
     stem = 40.0
     told = np.empty(1100)
-    moves = _steps(40, (60, 44), (300, 48), (540, 45), (800, 40))
+    moves = _steps(40, (60, 46), (300, 52), (540, 46), (800, 40))
 
     def control(i: int, y: float) -> float:
         nonlocal stem
         told[i] = moves(i, y)
-        stem = told[i] - np.clip(told[i] - stem, -2.0, 2.0)
+        stem = told[i] - np.clip(told[i] - stem, -1.0, 1.0)
         return stem
 
     y, _ = Process(2.0, 10, 35).run(1100, control, _noise(1100, 0.05, 16), 50, 40)
@@ -151,7 +151,7 @@ EXAMPLES: dict[str, Example] = {
     "relay": Example("Relay test", "OP switches between 46 and 56 %.", "k = 1.2 °C/%, θ = 15 s, τ₁ = 80 s", _relay),
     "sticking": Example(
         "Valve that sticks",
-        "The stem follows OP with 2 % of play.",
+        "The stem follows OP with 1 % of play.",
         "k = 2, θ = 10 s, τ₁ = 35 s behind the play",
         _sticking,
     ),

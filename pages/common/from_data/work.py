@@ -18,11 +18,15 @@ MORE = ("inverse", "oscillating", "DIPDT", "unstable")
 
 @dataclass(slots=True)
 class Fits:
-    """What came of the fitting of one part of a record. why: the refusal, where there is one."""
+    """What came of the fitting of one part of a record. why: the refusal, where there is one.
+
+    known: what was computed from them, by name.
+    """
 
     of: tuple[Any, ...]
     found: tuple[Identified, ...] = ()
     why: str = ""
+    known: dict[tuple[Any, ...], tuple[Any, str]] = field(default_factory=dict)
 
 
 @dataclass(slots=True)

@@ -8,7 +8,7 @@ from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.rules_choice import rules_choice
 from pages.common.parts.symbols import sentence, symbols
-from pages.common.parts.units import with_plain_unit
+from pages.common.parts.units import time_text, with_plain_unit
 from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.figures import bode_figure, budget_figure, model_error_figure, plant_step_figure
@@ -33,19 +33,37 @@ VERDICTS = {
 
 
 def choices() -> None:
-    """Order, sampling period, set of rules."""
+    """Order, sampling period, set of rules; what theta allows for."""
     row = st.container(horizontal=True, vertical_alignment="bottom", gap="medium")
     row.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
     design_number(
-        "h",
-        "Sampling allowed for in θ",
+        "sampling",
+        "Sampling period",
         quantity="time",
+        key="half_rule_sampling",
         place=row,
         under=st.container(),
         width=170,
-        help="Sampling period of a digital controller; half of it counts as dead time. 0: continuous.",
+        help="Of a digital controller, the same on all pages; 0: continuous.",
     )
     rules_choice(row)
+    with st.container(horizontal=True, vertical_alignment="center", gap="medium"):
+        design = state.design_now()
+        if design.actuator.h:
+            _allowed("h", design.actuator.h, "Half the sampling period counts as dead time")
+        if design.tuning.tau_F:
+            _allowed("tau_F", design.tuning.tau_F, "Half the filter time of the box counts as dead time")
+
+
+def _allowed(name: str, time: float, words: str) -> None:
+    """Whether theta allows for a time; on, it is that time."""
+    key = f"allowed_{name}"
+    state.set_widget(key, bool(state.value(name)))
+    st.checkbox(
+        f"{words}: {time_text(time / 2, state.design_now().sheet)}",
+        key=key,
+        on_change=lambda: state.overtaken(key) or state.change(**{name: time if state.widget(key) else 0.0}),
+    )
 
 
 def story(reduction: Reduction) -> None:

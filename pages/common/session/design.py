@@ -6,6 +6,7 @@ Pure Python, no streamlit. links.py writes a Design as an address, project.py as
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
+from pages.common.session.compared import PRESENT, Compared
 from pages.common.session.home import Home
 from pages.common.session.record import Chosen, Origin
 from pages.common.session.sheet import Sheet, one_of, ratio
@@ -14,6 +15,7 @@ from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
 from simc_core.plants.step_facts import StepFacts
+from simc_core.rules.simc_family import FAMILY
 from simc_core.rules.speed import WORDS, is_speed, times_theta
 
 KINDS = ("PI", "PID")
@@ -29,7 +31,9 @@ LOWEST_N, HIGHEST_N = 0.1, 1000.0
 class Tuning:
     """How a controller is made from the plant.
 
-    order: of the reduced model; 1 gives a PI, 2 a PID controller.   h: sampling period, 0 if continuous.
+    rule: SIMC, or one of its later forms, which take the model of order 1.
+    order: of the reduced model; 1 gives a PI, 2 a PID controller.   h, tau_F: sampling period, and filter of the box,
+    that theta allows for; 0 for none. The sampling period of the design is Actuator.h, and h is that or 0.
     speed: tau_c as a choice that follows the plant, "1.5theta" or one of WORDS; "" for tight, the model's own theta.
     tau_c: closed-loop time constant as a number, which goes before speed; None for none.
     b: set-point weight.   filter: tau_F/tau_D, 0 for no filter.   rules: of the reduction, [SK03] or [SK98].
@@ -42,6 +46,8 @@ class Tuning:
     filter: float = 0.0
     rules: str = "2003"
     speed: str = ""
+    tau_F: float = 0.0
+    rule: str = "simc"
 
     def __post_init__(self):
         put = object.__setattr__
@@ -50,11 +56,13 @@ class Tuning:
             raise InvalidParameter(f"speed must be one of {words} or like 1.5theta, got {str(self.speed)[:40]}")
         put(self, "order", checks.whole("order", self.order, 1, 2))
         put(self, "h", checks.optional_time("h", self.h))
+        put(self, "tau_F", checks.optional_time("tau_F", self.tau_F))
         if self.tau_c is not None:
             put(self, "tau_c", checks.positive_time("tau_c", self.tau_c))
         put(self, "b", checks.real("b", self.b, 0.0, 2.0))
         put(self, "filter", checks.real("filter", self.filter, 0.0, 10.0))
         one_of("rules", self.rules, RULES)
+        one_of("rule", self.rule, FAMILY)
 
     @property
     def kind(self) -> str:
@@ -108,8 +116,7 @@ class Excitation:
 class Actuator:
     """How the loop is built: the fields of Actuation, None for no limit.
 
-    tracking_time: None for the default.   h: sampling period of the controller as built; Tuning.h is the one that the
-    half rule allows for.   law: of the sampled controller.
+    tracking_time: None for the default.   h: sampling period, 0 if continuous.   law: of the sampled controller.
     """
 
     u_min: float | None = None
@@ -199,6 +206,7 @@ class Design:
     box: what the settings are typed into, a key of BOXES, "" where not told.   home: how they are taken there.
     record: what is chosen of the record on the page From data.
     origin: of a plant that was identified; None for one that came otherwise, or has changed since.
+    compared: what the page of rules compares.
     """
 
     plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
@@ -216,6 +224,7 @@ class Design:
     box: str = ""
     record: Chosen = field(default_factory=Chosen)
     origin: Origin | None = None
+    compared: Compared = field(default_factory=Compared)
     home: Home = field(default_factory=Home)
 
     def __post_init__(self):
@@ -228,13 +237,18 @@ class Design:
         object.__setattr__(self, "facts", of_plant(self.facts, self.plant))
         if self.origin is not None and self.origin.plant != self.plant:
             object.__setattr__(self, "origin", None)
+        if self.tuning.h not in (0.0, self.actuator.h):  # there is one sampling period
+            if self.actuator.h:
+                object.__setattr__(self, "tuning", replace(self.tuning, h=self.actuator.h))
+            else:
+                object.__setattr__(self, "actuator", replace(self.actuator, h=self.tuning.h))
 
 
 # Where the field of each name lies, "" for the design itself. Links and widgets know fields by these names.
 PLACES: dict[str, tuple[str, str]] = {
     **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box", "origin")},
     "controller": ("", "source"),
-    **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed")},
+    **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed", "tau_F", "rule")},
     **{name: ("sheet", name) for name in ("tag", "note")},
     "unit": ("sheet", "time_unit"),
     **{
@@ -252,12 +266,13 @@ PLACES: dict[str, tuple[str, str]] = {
     "filter_outer": ("cascade", "filter_outer"),
     **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
     **{name: ("record", name) for name in ("example", "structure", "begin", "end", "bad")},
-    **{name: ("home", name) for name in ("rounding", "language", "exported")},
+    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between")},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
     "d_time": ("excitation", "load_time"),
     "r_ramp": ("excitation", "setpoint_ramp"),
     "d_ramp": ("excitation", "disturbance_ramp"),
+    **{f"compared_{name}": ("compared", name) for name in ("plant", "kind", "tau_F", "Ms", "criterion", "rule")},
 }
 
 
@@ -272,6 +287,10 @@ def put(design: Design, name: str, value) -> Design:
     record, field_name = PLACES[name]
     if name == "OP_now":
         design = replace(design, actuator=_moved(design.actuator, design.sheet.OP_now, value))
+    if name == "h" and value:  # what theta allows for is the sampling period
+        design = replace(design, actuator=replace(design.actuator, h=value))
+    if name == "sampling" and not value:
+        design = replace(design, tuning=replace(design.tuning, h=0.0))
     if not record:
         return replace(design, **{field_name: value})
     return replace(design, **{record: replace(getattr(design, record), **{field_name: value})})
@@ -311,6 +330,8 @@ def in_time_unit(design: Design, unit: str) -> Design:
         pins=tuple(_in_time(pin, time) if isinstance(pin, Tuning) else pin.rescaled(time) for pin in design.pins),
         actuator=_in_time(design.actuator, time),
         excitation=_in_time(design.excitation, time),
+        home=design.home.in_time(time),
+        compared=_in_time(design.compared, time) if design.compared.plant == PRESENT else design.compared,
         cascade=replace(
             _in_time(design.cascade, time),
             primary=primary,
@@ -322,7 +343,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
 
 
 TIMES = (
-    *("tau_c", "h", "tracking_time", "tau_c_inner", "tau_c_outer"),
+    *("tau_c", "h", "tau_F", "tracking_time", "tau_c_inner", "tau_c_outer"),
     *("load_time", "setpoint_ramp", "disturbance_ramp"),
 )
 

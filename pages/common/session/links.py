@@ -1,16 +1,20 @@
 """A Design as query parameters and back. Pure: no streamlit, so that it can be tested alone.
 
-    plant, order, h, tau_c, b, filter, rules, speed, form   the design itself; from h on only where not the default
+    plant, order, h, tau_c, b, filter, rules, speed, tau_F, rule, form
+                                                     the design itself; from h on only where not the default
     facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
-    pins                                             order~h~tau_c~b~filter~rules~speed, or settings; separated by !
+    pins                                             order~h~tau_c~b~filter~rules~speed~tau_F~rule, or settings;
+                                                     separated by !
     example, structure, begin, end, bad              what is chosen of a record on the page From data
     origin                                           of a plant that was identified there
     box, rounding, language, exported                what the settings are typed into, or written as
+    points, between                                  value~k~theta~tau1~tau2 of a gain schedule, separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
     u_min, u_max, T_t, noise, seed, sampling, law    the loop as built, only where it is not the default
     r, d, d_time, r_ramp, d_ramp                     set point and load in the figures
+    compared_plant, compared_kind, compared_Ms, ...  what the page of rules compares
 
 Numbers are written with all their digits, so that a link opens the very same design.
 """
@@ -35,10 +39,11 @@ TUNING_FIELDS = tuple(name for name, (record, _) in PLACES.items() if record == 
 SETTINGS = ("own", "now")
 FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "I": IController}
 TEXTS = (
-    *("rules", "form", "speed", "controller", "box"),
+    *("rules", "rule", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
     *("method", "inner", "outer", "filter_outer", "law", "example", "structure"),
-    *("rounding", "language", "exported"),
+    *("rounding", "language", "exported", "between"),
+    *("compared_plant", "compared_kind", "compared_criterion", "compared_rule"),
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")
@@ -125,6 +130,8 @@ def _text(name: str, value) -> str:
         return value
     if name == "pins":
         return "!".join(map(_pin_text, value))
+    if name == "points":
+        return "!".join("~".join(map(number_text, point)) for point in value)
     if name in SETTINGS:
         return settings_text(value)
     if name in FACTS:
@@ -143,6 +150,8 @@ def _read(name: str, text: str):
         return _plant(text)
     if name == "pins":
         return tuple(map(_pin, text.split("!")))
+    if name == "points":
+        return tuple(tuple(_read("a number", number) for number in point.split("~")) for point in text.split("!"))
     if name in SETTINGS:
         return settings_of(text)
     if name in FACTS:
@@ -226,7 +235,7 @@ def _pin(text: str) -> Tuning | Controller:
     values = text.split("~")
     if values[0] in FORM_NAMES:
         return settings_of(text)
-    if len(values) not in (len(TUNING_FIELDS), len(TUNING_FIELDS) - 1):  # links of before have no speed
+    if not 0 <= len(TUNING_FIELDS) - len(values) <= 3:  # links of before have no speed, tau_F or rule
         raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, got {len(values)}")
     given = dict(zip(TUNING_FIELDS, values, strict=False))
     return Tuning(**{name: _read(name, value) for name, value in given.items() if value})

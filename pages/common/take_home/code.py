@@ -1,16 +1,17 @@
 """The controller as source text, to read and to download."""
 
+import math
+
 import streamlit as st
 
 from pages.common.parts.units import time_text
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.studies.single import Study
+from pages.common.take_home.proof import longest_period
 from pages.common.take_home.typed import assumed, typed_into
 from pages.common.take_home.written import LANGUAGES, limits, written
-from simc_core import longest_sampling_period
-from simc_core.errors import SimcError
-from simc_core.notation import number, rounded_down
+from simc_core.notation import number
 
 WHOSE = {"design": "the design", "typed": "what is typed into the box"}
 
@@ -46,14 +47,10 @@ def _choose(design: Design) -> None:
 
 def _period(design: Design, present: Study) -> None:
     """Without a sampling period there is no code; one that costs little is offered."""
-    try:
-        longest = longest_sampling_period(present.loop, design.actuator.law)
-    except SimcError:
-        longest = 0.0
-    if not 0 < longest < float("inf"):
+    period = longest_period(present.loop, design.actuator.law)
+    if not math.isfinite(period):
         st.info("A program acts every so often: type the sampling period of yours.")
         return
-    period = rounded_down(longest, 2)
     st.info(
         "A program acts every so often: type the sampling period of yours. "
         f"Up to {time_text(period, design.sheet)}, $M_s$ rises by 5 % at most."

@@ -17,11 +17,14 @@ NEEDED = {
 SPAN = 100.0  # where a range is not told, it is taken as 0 to 100 of its unit
 
 
-def typed_into(key: str, controller: Controller, sheet: Sheet, rounded: bool) -> Typed:
-    """What is typed, and the controller in effect, in the time unit of the design. Raises SimcError."""
+def typed_into(key: str, controller: Controller, sheet: Sheet, rounded: bool, nearest: bool = False) -> Typed:
+    """What is typed, and the controller in effect, in the time unit of the design. Raises SimcError.
+
+    nearest: a number beyond its range becomes the nearest within it.
+    """
     NEEDED.get(BOXES[key].form, lambda _: None)(controller)
     seconds = seconds_of(sheet)
-    found = to_box(controller.rescaled(seconds), key, *spans(sheet), rounded=rounded)
+    found = to_box(controller.rescaled(seconds), key, *spans(sheet), rounded=rounded, nearest=nearest)
     return replace(found, effective=found.effective.rescaled(1 / seconds))
 
 

@@ -1,6 +1,5 @@
 """Settings in the box: what is typed, what that makes, and what it does to the loop; and the way back."""
 
-import math
 from html import escape
 
 import streamlit as st
@@ -9,27 +8,22 @@ from pages.common.parts.copyable import copyable
 from pages.common.parts.number_field import design_number, number_field
 from pages.common.parts.panel import Panel, field
 from pages.common.parts.symbols import sentence
-from pages.common.parts.units import with_plain_unit
+from pages.common.parts.units import time_text
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, study_of_settings, time_responses
+from pages.common.take_home.proof import longest_period, sampled, table
+from pages.common.take_home.remedies import remedies
 from pages.common.take_home.typed import as_text, assumed, read_from, rows, typed_into
-from simc_core import BOXES, Typed, longest_sampling_period, sampled_margins
-from simc_core.errors import SimcError
+from simc_core import BOXES, Typed
+from simc_core.errors import BoxError, SimcError
 from simc_core.figures import input_figure, output_figure
 from simc_core.implementation.boxes.box import STRUCTURE
-from simc_core.notation import number, rounded_down
+from simc_core.notation import number
 from simc_core.sensitivity.margins_of_response import Margins
 
 HEIGHT = 260  # px
-ROWS = {  # of Margins: label; delay_margin in the time unit
-    "Ms": "Ms",
-    "Mt": "Mt",
-    "GM": "gain margin",
-    "PM_deg": "phase margin [°]",
-    "delay_margin": "delay margin",
-}
 LAWS = {"backward": "backward", "tustin": "Tustin"}
 
 
@@ -80,19 +74,30 @@ def numbers(design: Design, present: Study) -> Typed:
     return found
 
 
+def refused(design: Design, present: Study, error: BoxError) -> None:
+    """A number that the box does not take; the nearest that it does, and what the loop is with it."""
+    st.error(f"**This box does not take the design.** {sentence(str(error))}")
+    try:
+        found = typed_into(design.box, present.controller, design.sheet, design.home.rounding == "safe", nearest=True)
+        typed = study_of_settings(design.plant, found.effective)
+    except SimcError:  # the box has no form of it at all
+        return
+    with st.container(border=True):
+        becomes = f"$M_s$ = {number(typed.margins.Ms)}" if typed.stable else "the loop is not stable"
+        st.markdown(f"With the nearest numbers that it takes, {becomes}, {number(present.margins.Ms)} as designed.")
+        copyable(as_text(rows(design.box, found, design.sheet)), "nearest")
+
+
 def proof(design: Design, present: Study, found: Typed) -> None:
     """Design, typed and sampled side by side: margins and responses."""
     typed = study_of_settings(design.plant, found.effective)
-    columns = {"design": _column(present.margins), "as typed": _column(typed.margins)}
+    columns = {"design": present.margins, "as typed": typed.margins}
     if design.actuator.h:
         columns |= _sampled(typed, design)
-    names = [with_plain_unit(label, design.sheet.time_unit * (name == "delay_margin")) for name, label in ROWS.items()]
-    table = [
-        {"quantity": name} | {column: values[i] for column, values in columns.items()} for i, name in enumerate(names)
-    ]
-    st.dataframe(table, hide_index=True, width="stretch", height="content")
+    st.dataframe(table(columns, design.sheet.time_unit), hide_index=True, width="stretch", height="content")
     if design.actuator.h and typed.stable:
         _sampling(typed, design)
+    _remedies(design, present, found)
     studies = [present, typed]
     times = list(zip(("design", "typed"), time_responses(studies, design.excitation), strict=True))
     field(
@@ -156,32 +161,32 @@ def _take(key: str, given: dict[str, float | str], action: str, sheet: Sheet) ->
     state.remember(f"box_{key}_refused", why)
 
 
-def _sampled(typed: Study, design: Design) -> dict[str, list[str]]:
-    """Margins with the sampling period, by the title of their column; none, and why, where the law does not exist."""
-    h = design.actuator.h
+def _remedies(design: Design, present: Study, found: Typed) -> None:
+    """What filter and sampling of the box cost, made good again by a click."""
     try:
-        judged = sampled_margins(typed.loop, h, design.actuator.law)
+        offered = remedies(design, present, found)
+    except SimcError:  # the law does not exist, which has been told
+        return
+    with st.container(horizontal=True, gap="small", key="remedies"):
+        for i, remedy in enumerate(offered):
+            st.button(remedy.words, key=f"remedy_{i}", on_click=state.change, kwargs=remedy.change)
+
+
+def _sampled(typed: Study, design: Design) -> dict[str, Margins]:
+    """Margins with the sampling period, by the title of their column; none, and why, where the law does not exist."""
+    try:
+        return dict([sampled(typed.loop, design)])
     except SimcError as error:
         st.error(sentence(str(error)))
         return {}
-    return {f"sampled every {number(h)} {design.sheet.time_unit}".rstrip(): _column(judged)}
 
 
 def _sampling(typed: Study, design: Design) -> None:
     """Where sampling costs more than it should, up to which period it does not."""
-    try:
-        longest = longest_sampling_period(typed.loop, design.actuator.law)
-    except SimcError:  # which has been told
-        return
+    longest = longest_period(typed.loop, design.actuator.law)
     if design.actuator.h > longest:
-        period = f"{number(rounded_down(longest))} {design.sheet.time_unit}".rstrip()
+        period = time_text(longest, design.sheet)
         st.warning(f"Sampling is slow for this loop: take {period} or less, and $M_s$ rises by 5 % at most.")
-
-
-def _column(judged: Margins) -> list[str]:
-    if not judged.stable:
-        return ["not stable"] * len(ROWS)
-    return ["no limit" if math.isinf(value) else number(value) for value in (getattr(judged, name) for name in ROWS)]
 
 
 def _numbers_html(shown: list[dict[str, str]]) -> str:

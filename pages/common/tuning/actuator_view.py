@@ -70,7 +70,8 @@ def actuator_view(study: Study, design: Design) -> None:
         if study.tuned and (sampled := sampling_not_in_tuning(study.tuned, design.actuator.h)):
             proposal(sampled)
     with explain_refusal():
-        found = as_built(study.loop, design.actuator.scenario(design.excitation))
+        with st.spinner("Simulating the loop as built"):
+            found = as_built(study.loop, design.actuator.scenario(design.excitation))
         st.html(numbers_html(found, design.sheet))
         left, right = st.columns(2, gap="small")
         with left:
@@ -154,7 +155,9 @@ def _range_of_OP(design: Design) -> None:
     limits = {"u_min": sheet.off_scale(sheet.OP_low), "u_max": sheet.off_scale(sheet.OP_high)}
     if (actuator.u_min, actuator.u_max) != tuple(limits.values()):
         st.button(
-            f"Limits as in the loop sheet: OP {number(sheet.OP_low)} to {number(sheet.OP_high)}",
+            with_unit(
+                f"Limits as in the loop sheet: OP {number(sheet.OP_low)} to {number(sheet.OP_high)}", sheet.OP_unit
+            ),
             key="range_of_OP",
             type="tertiary",
             icon=":material/arrow_forward:",
@@ -224,10 +227,8 @@ def explained(found: AsBuilt, study: Study, design: Design) -> str:
             f"The noise takes a new value every {time_text(found.step, design.sheet)}, the step of the controller."
         )
     if found.actuation.h:
-        lines.append(
-            "The half rule can allow for the sampling: its own h, on the half rule page "
-            f"(now {number(study.tuning.h)}), adds h/2 to θ."
-        )
+        allows = "allows" if study.tuning.h else "can allow"
+        lines.append(f"The half rule {allows} for the sampling, h/2 in θ: half rule page.")
     if not actuator.on:
         lines.append("Nothing is limited yet: type a limit, noise or a sampling period above.")
     return " ".join(lines)

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.identification.estimator.fit import Fit, continued, fitted
+from simc_core.identification.estimator.fit import Fit, continued, fitted, polished
 from simc_core.identification.estimator.held_input import Array
-from simc_core.identification.estimator.records import Record
+from simc_core.identification.estimator.records import OFTEN, Record
 from simc_core.identification.estimator.structures import Structure
 from simc_core.identification.judgement.covariance import covariance, degrees_of_freedom, quantised
 from simc_core.identification.judgement.noise import Noise, noise_of
@@ -63,7 +63,7 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
         Whether there is a drift; None: weighed.
     """
     drifts = [True] if structure.integrating else [drift] if drift is not None else [True, False]
-    begun = all(np.count_nonzero(record.t < record.first_move) >= BEFORE for record in records)
+    begun = all(_start_shows(record) for record in records)
     startable = begun and not structure.always_free and bool(structure.lags)
     begins = [True, False] if startable else [False]
     first = fitted(structure, records, drifts[0], begins[-1], floor)
@@ -71,9 +71,14 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
     for one in drifts:
         for other in begins:
             if (one, other) not in fits:
-                near = [fit.point.x for fit in fits.values()]
+                near = [first.point.x, list(fits.values())[-1].point.x]
                 fits[one, other] = continued(structure, first.problem.records, one, other, floor, near)
     return _weighed(fits, floor, step)
+
+
+def _start_shows(record: Record) -> bool:
+    """There are samples before the first move, or OP moves all the time, so that no start can be at rest."""
+    return int(np.count_nonzero(record.t < record.first_move)) >= BEFORE or record.held.s.size > OFTEN * record.t.size
 
 
 def _weighed(fits: dict[tuple[bool, bool], Fit], floor: float, step: float) -> Estimate:
@@ -89,7 +94,8 @@ def _weighed(fits: dict[tuple[bool, bool], Fit], floor: float, step: float) -> E
     soft = {key: loss[key] + 2 * fit.free for key, fit in fits.items()}
     least = min(soft.values())
     weight = {key: float(np.exp(-(value - least) / 2)) for key, value in soft.items()}
-    fit, noise = fits[chosen], noises[chosen]
+    fit = fits[chosen] = polished(fits[chosen])
+    noise = noises[chosen] = noise_of(fit)
     values = _values(fit)
     spread, total = np.zeros((values.size, values.size)), 0.0
     for key, other in fits.items():

@@ -50,6 +50,7 @@ def to_box(
     time_unit: str = "s",
     N: float | None = None,
     rounded: bool = False,
+    nearest: bool = False,
 ) -> Typed:
     """The numbers that are typed into a box for a controller.
 
@@ -67,6 +68,8 @@ def to_box(
         Ratio Td/Tf, where the box lets one choose it. None: as the design's tau_F needs it, else the box's own choice.
     rounded : bool
         To what can be typed, on the safe side: gain down, integral time up, derivative time to the nearest.
+    nearest : bool
+        A number beyond the range of the box becomes the nearest within it, with a warning, rather than a BoxError.
 
     Returns
     -------
@@ -99,7 +102,7 @@ def to_box(
     N = None if N is None else checks.real("N", N, *RATIOS)
     law, pv_filter, warnings = LAWS[box.form].forward(positive, box, N)
     action = "reverse" if sign > 0 else "direct"
-    plain = numbers(box, law, spans, rounded)
+    plain = numbers(box, law, spans, rounded, warnings if nearest else None)
     if box.sign * sign < 0:
         plain = {name: with_sign(box, name, number) for name, number in plain.items()}
     values, more = with_structure(box, plain, law)

@@ -12,8 +12,11 @@ from simc_core.implementation.boxes.units import Spans, law_quantity, on_the_saf
 NEVER_ZERO = ("PB", "Ti", "N", "1/N", "factor")  # but where 0 is off
 
 
-def numbers(box: Box, law: Quantities, spans: Spans, round_off: bool) -> dict[str, float]:
-    """Typed numbers of the fields. The gain first: gains of I and D are for the gain that is typed."""
+def numbers(box: Box, law: Quantities, spans: Spans, round_off: bool, put: list[str] | None) -> dict[str, float]:
+    """Typed numbers of the fields. The gain first: gains of I and D are for the gain that is typed.
+
+    put: warnings about what was put to the nearest number; None where such a number is refused.
+    """
     values: dict[str, float] = {}
     for field in box.fields:
         name = law_quantity(field)
@@ -22,17 +25,24 @@ def numbers(box: Box, law: Quantities, spans: Spans, round_off: bool) -> dict[st
         number = (
             field.off if law[name] == off_value(field) and field.off is not None else typed(field, law[name], spans)
         )
-        if round_off and number != field.off:
-            number = _nearest_off(field, on_the_safe_side(field, number))
-            if name == "gain" and law[name] and not number:
-                assert field.step is not None  # else nothing was rounded
-                raise BoxError(
-                    f"{field.name} of {box.title} must be >= {field.step:g}, got {typed(field, law[name], spans):g}",
-                    field.name,
-                    0.0,
-                    field.step,
-                )
-        check(box, field, number)
+        exact = number
+        try:
+            if round_off and number != field.off:
+                number = _nearest_off(field, on_the_safe_side(field, number))
+                if name == "gain" and law[name] and not number:
+                    assert field.step is not None  # else nothing was rounded
+                    raise BoxError(
+                        f"{field.name} of {box.title} must be >= {field.step:g}, got {exact:g}",
+                        field.name,
+                        0.0,
+                        field.step,
+                    )
+            check(box, field, number)
+        except BoxError as error:
+            if put is None or math.isnan(error.nearest):
+                raise
+            number = error.nearest
+            put.append(f"{field.name} = {exact:g} is beyond the range of the box: {number:g} is the nearest")
         if name == "gain" and law[name]:
             change = read(field, number, spans) / law[name]
             law = law | {gain: law[gain] * change for gain in ("gain", "Ki", "Kd") if gain in law}

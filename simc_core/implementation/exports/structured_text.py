@@ -38,7 +38,7 @@ def logix(program: Program) -> str:
     tags = ("r", "y", "u_manual", "u_ff", *SETTINGS, *STATE, *program.local)
     header = [*program.header, NOT_COMPILED.format("Studio 5000"), "Call it every h in a periodic task."]
     header += [f"REAL tags: {', '.join(tags)}.", "BOOL tags: manual, started; set started to 0 in the first scan."]
-    settings = [f"    {name} := {_literal(program.values[name])};" for name in SETTINGS]
+    settings = [f"    {name} := {literal(program.values[name])};" for name in SETTINGS]
     return "\n".join([*_comment(header), *_body(program, {}, _by_comparing, settings), ""])
 
 
@@ -51,7 +51,7 @@ def _declarations(program: Program, single: str, double: str) -> list[str]:
 
     def declared(names: Iterable[str]) -> list[str]:
         return [
-            f"    {name} : {real} := {_literal(program.values[name])};"
+            f"    {name} : {real} := {literal(program.values[name])};"
             + (f" (* {MEANING[name]} *)" if MEANING[name] else "")
             for name in names
         ]
@@ -95,7 +95,7 @@ def _by_comparing(name: str) -> list[str]:
     return lines
 
 
-def _literal(value: float) -> str:
+def literal(value: float) -> str:
     """A constant with a decimal point, as the standard wants it."""
     text = repr(float(value)).upper()
     if "E" in text and "." not in text:

@@ -27,11 +27,11 @@ from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.one_step import Linear, Step
 from simc_core.simulation.rise import mean_risen, risen
 
-STEPS = 5000  # at least; more where theta or h is short against the horizon
+FEWEST_STEPS = 5000  # at least; more where theta or h is short against the horizon
 MOST_STEPS = 50_000  # less than 0.1 s
-SAME = 1e-9  # relative; instants closer than this to the grid are on it
+SAME_INSTANT = 1e-9  # relative; instants closer than this to the grid are on it
 MOST_JUMPS = 1000  # of a course that are shown as jumps
-LARGEST = 1e200  # an unstable response is cut off here
+CUT_OFF = 1e200  # an unstable response is cut off here
 W1, W2, LOAD, ARRIVING = OF_PLANT = range(-4, 0)  # the last columns of z
 
 
@@ -148,11 +148,11 @@ class Stepped:
 
     def at(self, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """y, u at the instants t, linear within a step, right-hand limits at its ends, the last values after them."""
-        return self._within(np.searchsorted(self.t, t * (1 + SAME), side="right") - 1, t)
+        return self._within(np.searchsorted(self.t, t * (1 + SAME_INSTANT), side="right") - 1, t)
 
     def before(self, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """As at(t), left-hand limits; at rest before t = 0."""
-        step = np.searchsorted(self.t, t * (1 - SAME), side="left") - 1
+        step = np.searchsorted(self.t, t * (1 - SAME_INSTANT), side="left") - 1
         y, u = self._within(step, t)
         return np.where(step < 0, 0.0, y), np.where(step < 0, 0.0, u)
 
@@ -168,12 +168,12 @@ class Stepped:
             jump = np.abs(each[:, 0] - np.concatenate([[0.0], each[:-1, 1]]))
             size = np.maximum(size, jump / np.max(np.abs(each), initial=1e-300))
         largest = np.argsort(-size, kind="stable")[:MOST_JUMPS]
-        return np.sort(self.t[largest[size[largest] > SAME]])
+        return np.sort(self.t[largest[size[largest] > SAME_INSTANT]])
 
 
 def stepped(dt: float, y: np.ndarray, v: np.ndarray, u: np.ndarray, h: float) -> Stepped:
     """A course of steps of equal length dt, without those behind an overflow."""
-    good = np.all((np.abs(y) < LARGEST) & (np.abs(v) < LARGEST), axis=1)
+    good = np.all((np.abs(y) < CUT_OFF) & (np.abs(v) < CUT_OFF), axis=1)
     N = len(y) if good.all() else max(int(np.argmin(good)), 1)
     return Stepped(dt * np.arange(N + 1), y[:N], v[:N], u[:N], h)
 
@@ -197,10 +197,10 @@ class Driven:
         self.system, self.step, self.dt, self.theta, self.inputs = system, step, dt, theta, inputs
         arrives = (inputs.disturbance_time + theta) / dt
         near = round(arrives)
-        self.first = self.whole = near if abs(arrives - near) < SAME * arrives else math.floor(arrives)
+        self.first = self.whole = near if abs(arrives - near) < SAME_INSTANT * arrives else math.floor(arrives)
         self.kick = np.zeros(len(system.B))
         rest = max(self.first + 1 - arrives, 0.0) * dt  # of step `first`
-        if rest < dt * (1 - SAME):
+        if rest < dt * (1 - SAME_INSTANT):
             self.whole, self.kick = self.first + 1, system.hold(rest)[1]
 
     def over(self, x: np.ndarray, last: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -230,4 +230,4 @@ def affordable(steps: float, why: str) -> int:
     """Whole steps that go beyond `steps`, so that a jump at the end is seen. Raises InvalidParameter: MOST_STEPS."""
     if steps > MOST_STEPS:
         raise InvalidParameter(f"t_end must be <= {MOST_STEPS} steps for {why}, got {steps:.3g}")
-    return math.floor(steps * (1 + SAME)) + 1
+    return math.floor(steps * (1 + SAME_INSTANT)) + 1

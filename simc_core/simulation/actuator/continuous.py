@@ -24,8 +24,8 @@ from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.simulation.actuator.actuation import (
+    FEWEST_STEPS,
     OF_PLANT,
-    STEPS,
     W1,
     W2,
     Actuation,
@@ -59,8 +59,8 @@ def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Stepped:
 
 def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs) -> Stepped:
     system, theta = _measured(loop, form), loop.plant.theta
-    m = whole_steps(theta * STEPS / inputs.t_end) if theta else 0
-    dt = theta / m if m else inputs.t_end / STEPS
+    m = whole_steps(theta * FEWEST_STEPS / inputs.t_end) if theta else 0
+    dt = theta / m if m else inputs.t_end / FEWEST_STEPS
     N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
     m, n = min(m, N), len(system.B)
     plant = Driven(system, system.ramp(dt), dt, theta, inputs)

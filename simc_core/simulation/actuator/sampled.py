@@ -14,9 +14,9 @@ from simc_core.controllers.discrete import State, law_for
 from simc_core.controllers.forms import ParallelPid
 from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.actuation import (
+    FEWEST_STEPS,
     OF_PLANT,
-    SAME,
-    STEPS,
+    SAME_INSTANT,
     W1,
     W2,
     Actuation,
@@ -40,10 +40,10 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     """As saturation.actuated, for h > 0. Raises InvalidParameter beyond actuation.MOST_STEPS steps."""
     A, B, C, D = chain(loop.plant.factored)
     system, theta, h, n = Linear(A, B, C[None, :], np.array([D])), loop.plant.theta, actuation.h, len(B)
-    fine = whole_steps(h * STEPS / inputs.t_end)  # steps a sampling period
+    fine = whole_steps(h * FEWEST_STEPS / inputs.t_end)  # steps a sampling period
     dt = h / fine
     N = affordable(inputs.t_end / dt, f"a sampling period of {h:g}")
-    m = min(math.ceil(theta / dt * (1 - SAME)), N)
+    m = min(math.ceil(theta / dt * (1 - SAME_INSTANT)), N)
     late = max(m * dt - theta, 0.0)  # w over step j is u of step j - m, for the last `late` that of j - m + 1
     reach = m, m - (late > 0)  # steps from u to w1 and to w2
     plant = Driven(system, system.late_hold(dt, late), dt, theta, inputs)

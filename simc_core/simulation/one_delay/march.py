@@ -50,7 +50,7 @@ from simc_core.simulation.one_delay.unit_responses import Batch, UnitResponses, 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 MOST_INTERVALS = 3 * SMOOTH  # of theta that are stepped over first
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
-LARGEST = 1e150  # an unstable response is cut off here
+CUT_OFF = 1e150  # an unstable response is cut off here
 
 Chosen = slice | np.ndarray  # some of the tunings, or all of them, along the first axis of an array
 
@@ -299,7 +299,7 @@ class March:
             left = None if self.to_rest else (self.t_end - control.t) / unit
             control.lengthen(judged, middle, tail, control.t / unit, left)
             # what is asked for at t_end is the right-hand limit
-            if self._rests(i, size) if self.to_rest else control.t > self.t_end * (1 + 1e-12) or not size < LARGEST:
+            if self._rests(i, size) if self.to_rest else control.t > self.t_end * (1 + 1e-12) or not size < CUT_OFF:
                 del self.active[i]
 
     def _rests(self, i: int, away: float) -> bool:

@@ -20,7 +20,7 @@ PATIENCE, MOST_PATIENCE = 4, 16
 LOWEST, HIGHEST = -48, 60  # levels
 LEAST = 1e-16  # of a coefficient: rounding
 REST = 1e-10  # of the largest value: nearer than this to where it ends, a response is at rest
-ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors,
+STIFF_ROUNDING = 1e-6  # a stiff loop that comes no nearer than this has reached its rounding errors,
 GONE = 25.0  # if so many time constants of its slowest mode have passed: otherwise it is that mode
 
 
@@ -66,7 +66,7 @@ class StepControl:
         """Whether the last element, within `away` of where the response ends, is hardly nearer than long before."""
         if self.t < 2 * self.mark:
             return False
-        found = 0.5 * self.away_at_mark < away <= ROUNDING
+        found = 0.5 * self.away_at_mark < away <= STIFF_ROUNDING
         self.mark, self.away_at_mark = self.t, away
         return found
 

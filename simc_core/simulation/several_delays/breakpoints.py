@@ -14,9 +14,9 @@ from simc_core.errors import InvalidParameter
 from simc_core.simulation.several_delays.network import Network
 
 SMOOTH = 8  # order of derivative from which a jump is left to step control
-SMALL = 1e-13  # jumps of the size of the step times this are none
+NO_JUMP = 1e-13  # jumps of the size of the step times this are none
 ZERO = 1e-13  # relative; smaller Markov parameters are rounding
-SAME = 1e-11  # instants closer than this, relative, are one
+SAME_INSTANT = 1e-11  # instants closer than this, relative, are one
 MOST = 20_000
 
 
@@ -34,7 +34,7 @@ class Breakpoints:
         self.count = 0
 
     def _push(self, t: float, k: int, order: int, size: float) -> None:
-        if order < SMOOTH and size > SMALL:
+        if order < SMOOTH and size > NO_JUMP:
             heapq.heappush(self.heap, (t + float(self.theta[k]), order, k, size))
 
     def next(self) -> tuple[float, int] | None:
@@ -49,7 +49,7 @@ class Breakpoints:
             )
         t, lowest, _, _ = self.heap[0]
         arrived: dict[int, tuple[int, float]] = {}
-        while self.heap and self.heap[0][0] <= t + SAME * max(t, float(np.min(self.theta, initial=np.inf))):
+        while self.heap and self.heap[0][0] <= t + SAME_INSTANT * max(t, float(np.min(self.theta, initial=np.inf))):
             _, order, k, size = heapq.heappop(self.heap)
             before = arrived.get(k, (order, 0.0))
             arrived[k] = (min(order, before[0]), size + before[1])

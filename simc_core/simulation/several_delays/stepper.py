@@ -32,11 +32,11 @@ START = 4.0  # first length after a jump, in time constants of the fastest mode
 FEWEST_BITS = 30  # lengths below 2^-FEWEST_BITS of the first are rounding
 FLOOR = 1e-4  # a signal is judged by this part of the largest one at least: zero is zero within rounding
 SHARE = 1e-2  # and by this part of its largest response to any of the inputs
-ROUNDING = 1e-14
+VALUE_ROUNDING = 1e-14  # of what is added up to a value
 MOST_ELEMENTS = 15_000  # 80 us each
 MOST_VALUES = 5_000_000  # numbers in all elements of a loop: 40 MB, of each of the RECENT ones
 MOST_MAPS = 200  # remembered; 0.1 MB each, 0.4 MB of six loops
-LARGEST = 1e150
+CUT_OFF = 1e150  # an unstable response ends here
 GROWTH = 1.02  # of a signal before its size is taken anew
 DIGITS = 11  # behind the point: lengths and places that agree to so many are the same
 ROOM_AT_FIRST = 128  # elements
@@ -127,7 +127,7 @@ class NestedStepper:
         last = largest(np.abs(values[:, -2:]), 1)
         tail = float(largest(last / self.allowed, None))
         if tail > ROOM:  # if at all, for what is rounding, or because the signals have grown
-            noise = ROUNDING * (made.weight @ np.abs(known) + self.summands @ np.abs(self.x))
+            noise = VALUE_ROUNDING * (made.weight @ np.abs(known) + self.summands @ np.abs(self.x))
             allowed = self._sizes(values)[1] if tail > 1 else self.allowed
             tail = float(largest(np.maximum(last - noise, 0.0) / allowed, None))
         return values, made.end @ known, tail
@@ -181,7 +181,7 @@ class NestedStepper:
         self.count += 1
         if (largest(np.abs(values), 1) > GROWTH * self.largest).any():
             self.largest, self.allowed = self._sizes(values)
-            self.bounded = bool(largest(self.largest, None) < LARGEST)
+            self.bounded = bool(largest(self.largest, None) < CUT_OFF)
         self.t, self.x = end, x
 
 

@@ -1,0 +1,50 @@
+"""Margins of the design, as typed and as sampled, side by side. Pure: no streamlit."""
+
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+
+from pages.common.parts.units import with_plain_unit
+from pages.common.session.design import Design
+from simc_core import Loop, longest_sampling_period, sampled_margins
+from simc_core.errors import SimcError
+from simc_core.notation import number, rounded_down
+from simc_core.sensitivity.margins_of_response import Margins
+
+ROWS = {  # of Margins: label; delay_margin in the time unit
+    "Ms": "Ms",
+    "Mt": "Mt",
+    "GM": "gain margin",
+    "PM_deg": "phase margin [°]",
+    "delay_margin": "delay margin",
+}
+
+
+def sampled(loop: Loop, design: Design) -> tuple[str, Margins]:
+    """Title and margins with the sampling period of the design. Raises SimcError where its law does not exist."""
+    h = design.actuator.h
+    title = f"sampled every {number(h)} {design.sheet.time_unit}".rstrip()
+    return title, sampled_margins(loop, h, design.actuator.law)
+
+
+@lru_cache(maxsize=16)  # a fifth of a second, asked for by warnings, remedies and reports
+def longest_period(loop: Loop, law: str) -> float:
+    """The sampling period that costs 5 % of Ms, rounded down; infinite where none does, nan where there is none."""
+    try:
+        longest = longest_sampling_period(loop, law)
+    except SimcError:
+        return math.nan
+    return rounded_down(longest) if math.isfinite(longest) else longest
+
+
+def table(columns: Mapping[str, Margins], time_unit: str) -> list[dict[str, str]]:
+    """A line for each of ROWS, with what it is under "quantity"."""
+    names = [with_plain_unit(label, time_unit * (name == "delay_margin")) for name, label in ROWS.items()]
+    texts = {title: _column(judged) for title, judged in columns.items()}
+    return [{"quantity": name} | {title: column[i] for title, column in texts.items()} for i, name in enumerate(names)]
+
+
+def _column(judged: Margins) -> list[str]:
+    if not judged.stable:
+        return ["not stable"] * len(ROWS)
+    return ["no limit" if math.isinf(value) else number(value) for value in (getattr(judged, name) for name in ROWS)]

@@ -1,0 +1,1 @@
+"""One page for a loop, to be printed and kept: everything is made from one record."""

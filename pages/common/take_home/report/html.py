@@ -1,0 +1,126 @@
+"""A report as HTML that prints on one page of A4 and needs nothing else. Pure: no streamlit."""
+
+from base64 import b64encode
+from collections.abc import Iterable, Sequence
+from html import escape
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import segno
+
+from pages.common.take_home.proof import table
+from pages.common.take_home.report.record import Report, Row
+from pages.common.take_home.report.svg import FAR, Curve, figure
+from simc_core.figures import palette
+
+STYLE = (Path(__file__).parent / "report.css").read_text(encoding="utf-8")
+PAPER = "@page { size: A4; margin: 12mm; }\nbody { margin: 0; }\n"
+LONGEST_IN_QR = 1000  # characters; more make a code that a telephone does not read from paper
+
+
+def document(report: Report) -> str:
+    """The whole file."""
+    return (
+        f'<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<title>{escape(title(report))}</title>\n'
+        f"<style>\n{PAPER}{STYLE}</style>\n</head>\n<body>\n{body(report)}\n</body>\n</html>\n"
+    )
+
+
+def body(report: Report) -> str:
+    """The report itself, as an <article>; its styles are those of report.css."""
+    plant = [Row("plant", report.plant, ""), Row("kind", report.kind, ""), Row("from", report.came_from, "")]
+    plant += [Row("note", report.note, "")] if report.note else []
+    design = [Row("controller", report.how, ""), *report.settings]
+    parts = [
+        f"<header><h1>{escape(title(report))}</h1><p>{escape(report.made)}</p></header>",
+        _section("Plant", f'<div class="pair">{_list(plant)}{_list(report.signals)}</div>'),
+        '<div class="pair">',
+        _section("Design", _list(design)),
+        _section(f"Typed into {report.box}", _list(report.typed, "large")) if report.typed else "",
+        "</div>",
+        _section("Margins", _margins(report)),
+        _section(f"Responses: {report.asked}", _drawn(report)),
+        _section("What to watch", _items(report.watch)) if report.watch else "",
+        _section("Sources", _items(report.sources)) if report.sources else "",
+        _link(report.link),
+    ]
+    return f'<article class="report">{"".join(parts)}</article>'
+
+
+def title(report: Report) -> str:
+    """What it is called."""
+    return f"{report.tag}: controller settings" if report.tag else "Controller settings"
+
+
+def figures(report: Report) -> tuple[str, str]:
+    """y and u of all curves, as SVG."""
+    first = next(iter(report.curves.values()))
+    x_title = f"t [{report.time}]" if report.time else "t"
+    view = {"y": FAR * max(float(np.max(np.abs(first.r))), float(np.max(np.abs(first.d))), 1e-12), "u": np.inf}
+    if all(each.stable for each in report.margins.values()):
+        view["y"] = np.inf
+    found = []
+    for signal, colour, unit in (("y", palette.Y, report.y), ("u", palette.U, report.u)):
+        curves: dict[str, Curve] = {
+            name: (curve.t, getattr(curve, signal), palette.shade(colour, position))
+            for position, (name, curve) in enumerate(report.curves.items())
+        }
+        if signal == "y":
+            curves["r"] = first.t, first.r, (palette.R, "dash", 1.4)
+        limit = view["y"] if signal == "y" else _limit_of_u(report, view["y"])
+        found.append(figure(curves, x_title, f"{signal} [{unit}]" if unit else signal, f"view_{signal}", limit))
+    return found[0], found[1]
+
+
+def _drawn(report: Report) -> str:
+    names = ", ".join(report.curves)
+    parts = [_image(svg, f"{signal}: {names}") for signal, svg in zip("yu", figures(report), strict=True)]
+    return f'<div class="pair">{"".join(parts)}</div>'
+
+
+def _image(svg: str, alt: str) -> str:
+    """As data: pages of Streamlit show no other SVG."""
+    return f'<img alt="{escape(alt)}" src="data:image/svg+xml;base64,{b64encode(svg.encode()).decode()}">'
+
+
+def _limit_of_u(report: Report, view: float) -> float:
+    """|u| that is shown where a curve grows: that of the calmest."""
+    return np.inf if np.isinf(view) else FAR * min(float(np.max(np.abs(each.u))) for each in report.curves.values())
+
+
+def _section(name: str, content: str) -> str:
+    return f"<section><h2>{escape(name)}</h2>{content}</section>"
+
+
+def _list(rows: Sequence[Row], look: str = "plain") -> str:
+    if not rows:
+        return ""
+    cells = "".join(
+        f"<dt>{escape(row.name)}</dt><dd><span>{escape(row.value)}</span> {escape(row.unit)}</dd>" for row in rows
+    )
+    return f'<dl class="{look}">{cells}</dl>'
+
+
+def _margins(report: Report) -> str:
+    rows = table(report.margins, report.time)
+    head = "".join(f"<th>{escape(name)}</th>" for name in rows[0])
+    lines = ["<tr>" + "".join(f"<td>{escape(text)}</td>" for text in row.values()) + "</tr>" for row in rows]
+    return f"<table><tr>{head}</tr>{''.join(lines)}</table>"
+
+
+def _items(texts: Iterable[str]) -> str:
+    return f"<ul>{''.join(f'<li>{escape(text)}</li>' for text in texts)}</ul>"
+
+
+def _link(link: str) -> str:
+    """The address of the design, and as a QR code where that can be read."""
+    code = ""
+    if len(link) <= LONGEST_IN_QR:
+        out = BytesIO()
+        segno.make(link, micro=False, error="l").save(
+            out, kind="svg", xmldecl=False, svgns=True, omitsize=True, border=2
+        )
+        code = f'<div class="qr">{_image(out.getvalue().decode(), "QR code of the address beside it")}</div>'
+    said = f"This design, to be opened and changed: <span>{escape(link)}</span>"
+    return f"<footer>{code}<p>{said}</p></footer>"

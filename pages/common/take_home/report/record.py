@@ -1,0 +1,225 @@
+"""What a report tells of a loop: plant, design, what is typed, margins, responses, what to watch. Pure."""
+
+import math
+from dataclasses import dataclass, replace
+from datetime import date
+from typing import NamedTuple
+
+from pages.common.parts.settings_text import as_text
+from pages.common.parts.units import time_text
+from pages.common.session.design import Design
+from pages.common.session.sheet import Sheet
+from pages.common.studies.single import Study, attempt, study_of_settings
+from pages.common.take_home.proof import longest_period, sampled
+from pages.common.take_home.typed import SPAN, assumed, rows, typed_into
+from simc_core import BOXES, Typed, simulate
+from simc_core.errors import SimcError
+from simc_core.implementation.single_precision import dead_error
+from simc_core.notation import number, plain
+from simc_core.plants.step_facts import SlopeFacts, StepFacts
+from simc_core.published.sources import SOURCES
+from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.simulation import TimeResponse
+from simc_core.simulation.horizon import times
+from simc_core.studies.advice import advice, advice_on_settings
+
+BLIND = 1e-3  # of the range of PV: an error that REAL no longer sees and that is larger is told
+
+
+class Row(NamedTuple):
+    """A number with its name and unit, as text."""
+
+    name: str
+    value: str
+    unit: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Report:
+    """One loop on one page.
+
+    tag, note, made: what it is called, a remark, the day.   plant, kind, came_from: transfer function, what sort, and
+    where it came from.   signals: names, units and ranges.   how: the controller came about.   settings: of the design.
+    box, typed: what they are typed into, and the numbers there; empty without one.   margins: by title.
+    curves: responses by name, in the order in which they are drawn.   asked: of the loop in them, in words.
+    time, y, u: units, empty where they have no name.
+    """
+
+    tag: str
+    note: str
+    made: str
+    plant: str
+    kind: str
+    came_from: str
+    signals: tuple[Row, ...]
+    how: str
+    settings: tuple[Row, ...]
+    box: str
+    typed: tuple[Row, ...]
+    margins: dict[str, Margins]
+    curves: dict[str, TimeResponse]
+    asked: str
+    watch: tuple[str, ...]
+    sources: tuple[str, ...]
+    link: str
+    time: str
+    y: str
+    u: str
+
+
+def report(design: Design, present: Study, link: str) -> Report:
+    """The report of a design; `present` is its study. Raises SimcError where the box does not take it."""
+    sheet = design.sheet
+    typed = typed_into(design.box, present.controller, sheet, design.home.rounding == "safe") if design.box else None
+    final = study_of_settings(design.plant, typed.effective) if typed else present
+    margins, watch = {"design": present.margins}, []
+    if typed:
+        margins["as typed"] = final.margins
+    if design.actuator.h:
+        try:
+            margins |= dict([sampled(final.loop, design)])
+            watch += _on_sampling(final, design)
+        except SimcError as error:
+            watch.append(str(error))
+    before = attempt(lambda: study_of_settings(design.plant, design.now))[0] if design.now else None
+    curves, why = _responses(design, present, final, before)
+    return Report(
+        tag=sheet.tag,
+        note=sheet.note,
+        made=date.today().isoformat(),
+        plant=f"G(s) = {plain(design.plant)}",
+        kind=design.plant.kind,
+        came_from=_came_from(design.facts, sheet),
+        signals=tuple(_signals(sheet)),
+        how=_how(design, present),
+        settings=_settings(design, present),
+        box=f"{BOXES[design.box].maker}: {BOXES[design.box].title}" if typed else "",
+        typed=tuple(Row(row["field"], row["value"], row["unit"]) for row in rows(design.box, typed, sheet))
+        if typed
+        else (),
+        margins=({"now": before.margins} if before else {}) | margins,
+        curves=curves,
+        asked=_asked(design),
+        watch=(*watch, *why, *_watch(design, present, typed)),
+        sources=tuple(_sources(design)),
+        link=link,
+        time=sheet.time_unit,
+        y=sheet.PV_unit,
+        u=sheet.OP_unit,
+    )
+
+
+def _responses(
+    design: Design, present: Study, final: Study, before: Study | None
+) -> tuple[dict[str, TimeResponse], list[str]]:
+    """The new loop, as it is built where that can be simulated, the design, and the loop now; what could not be."""
+    begins, t_end = times(present.loop, design.excitation.scenario())
+    asked = design.excitation.scenario(disturbance_time=begins, t_end=t_end)
+    built = replace(design.actuator.scenario(design.excitation).actuation, noise=0.0)
+    found, why = {}, []
+    if final is not present or not built.linear:
+        name = "as built" if not built.linear else "as typed"
+        try:
+            found[name] = simulate(final.loop, replace(asked, actuation=built))
+        except SimcError as error:
+            why.append(f"The loop as built is not drawn: {error}")
+    found["design"] = simulate(present.loop, asked)
+    if before:
+        found["now"] = simulate(before.loop, asked)
+    return found, why
+
+
+def _how(design: Design, present: Study) -> str:
+    if present.tuned is None:
+        return "my settings"
+    unit = design.sheet.time_unit
+    return (
+        f"SIMC {design.tuning.kind}, tau_c = {number(present.tau_c)} {unit}".rstrip()
+        + f", model {plain(present.model)}"
+    )
+
+
+def _settings(design: Design, present: Study) -> tuple[Row, ...]:
+    controller, form = present.controller, design.form
+    form = form if controller.has_form(form) else "parallel"
+    lines = [line.partition(" = ") for line in as_text(controller, form, design.sheet).splitlines()]
+    found = []
+    for name, _, rest in lines:
+        value, _, unit = rest.partition(" ") if rest[0].isdigit() else (rest, "", "")
+        found.append(Row(name, value, unit))
+    return (Row("form", form, ""), *found)
+
+
+def _came_from(facts: StepFacts | None, sheet: Sheet) -> str:
+    match facts:
+        case None:
+            return "typed as a transfer function"
+        case SlopeFacts():
+            told = {"slope over": facts.duration}
+        case _:
+            told = {"63 % from the movement after" if facts.from_movement else "63 % after": facts.t63}
+    unit, pv, op = sheet.time_unit, sheet.PV_unit, sheet.OP_unit
+    parts = [f"OP by {number(facts.dOP)} {op}".rstrip(), f"PV by {number(facts.dPV)} {pv}".rstrip()]
+    parts += [f"dead time {number(facts.theta)} {unit}".rstrip()]
+    parts += [f"{what} {number(time)} {unit}".rstrip() for what, time in told.items()]
+    return f"step test: {', '.join(parts)}"
+
+
+def _signals(sheet: Sheet) -> list[Row]:
+    found = []
+    for signal in ("PV", "OP"):
+        name, unit, low, high, now = (
+            getattr(sheet, f"{signal}{end}") for end in ("", "_unit", "_low", "_high", "_now")
+        )
+        if name:
+            found.append(Row(signal, name, unit))
+        if low is not None and high is not None:
+            found.append(Row(f"range of {signal}", f"{number(low)} to {number(high)}", unit))
+        if now is not None:
+            found.append(Row(f"{signal} now", number(now), unit))
+    return found
+
+
+def _asked(design: Design) -> str:
+    asked, sheet = design.excitation, design.sheet
+    said = [f"set point {number(asked.setpoint)} {sheet.PV_unit}".rstrip()]
+    said += [f"then load {number(asked.disturbance)} {sheet.OP_unit}".rstrip()]
+    ends = (("from", design.actuator.u_min), ("to", design.actuator.u_max))
+    limits = [f"{word} {number(sheet.on_scale(u))}" for word, u in ends if u is not None]
+    return ", ".join([*said, *([" ".join([sheet.u_name, *limits, sheet.OP_unit]).rstrip()] if limits else [])])
+
+
+def _on_sampling(final: Study, design: Design) -> list[str]:
+    """Where h is too long, and what an integral in 32 bits does not see."""
+    found, h = [], design.actuator.h
+    longest, sheet = longest_period(final.loop, design.actuator.law), design.sheet
+    if h > longest:
+        period = time_text(longest, sheet)
+        found.append(f"Sampling is slow for this loop: with {period} or less Ms rises by 5 % at most.")
+    spans = [(sheet.PV_low, sheet.PV_high), (sheet.OP_low, sheet.OP_high)]
+    PV, OP = ((0.0, SPAN) if None in ends else ends for ends in spans)
+    blind = dead_error(max(map(abs, OP)), final.controller.to_parallel().Ki, h)
+    if BLIND * (PV[1] - PV[0]) < blind < math.inf:
+        found.append(
+            f"Where the box integrates in REAL (32 bits), an error below {number(blind, 2)} {sheet.PV_unit}".rstrip()
+            + " does not move its integral: take LREAL or a slower task."
+        )
+    return found
+
+
+def _watch(design: Design, present: Study, typed: Typed | None) -> list[str]:
+    advised = advice(present.tuned) if present.tuned else advice_on_settings(design.plant, present.controller)
+    found = [f"{item.headline}. {item.text} {item.remedy}".rstrip() for item in advised if item.level != "note"]
+    if typed:
+        found += typed.warnings
+        found += [f"The loop sheet does not tell it: {what}." for what in assumed(design.sheet)]
+    return [text[0].upper() + text[1:] if text[:3].islower() else text for text in found]
+
+
+def _sources(design: Design) -> list[str]:
+    found = [f"[SK03] {SOURCES['SK03']}"] if design.source == "simc" else []
+    if design.box:
+        box = BOXES[design.box]
+        whose = "its maker" if box.verified == "maker" else "a third party"
+        found.append(f"Law of the box as read in: {box.source}, a text of {whose}.")
+    return found
