@@ -49,6 +49,14 @@ def gain(name: str, value: object) -> float:
     return magnitude(name, value, LARGEST_GAIN)
 
 
+def positive(name: str, value: object) -> float:
+    """A gain > 0."""
+    number = gain(name, value)
+    if number < 0:
+        raise InvalidParameter(f"{name} must be > 0, got {number:g}")
+    return number
+
+
 def time_constant(name: str, value: object) -> float:
     """A nonzero time constant of either sign."""
     return magnitude(name, value, LONGEST_TIME)

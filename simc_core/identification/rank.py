@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import exp, log, sqrt
 
+import numpy as np
+
 from simc_core import checks
 from simc_core.controllers.forms import IController
 from simc_core.errors import NotIdentifiable, SimcError
@@ -19,6 +21,12 @@ from simc_core.rules.simc import simc
 USUAL = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag")
 MARGIN = 2.0  # of the criterion, for each parameter
 BELIEVED = 1e-3  # of the response: a structure gains nothing by fitting better
+REST = 10  # samples before the first move from which a drift can be seen
+SURE = 4.0  # standard errors of it
+UNLIKELY = 10.0  # of the criterion, behind the best self-regulating structure
+UNSEEN = (
+    "The drift of this model is not seen before OP moves: PV has not settled rather than integrates. Do not tune on it."
+)
 NEAR = 6.0  # of the criterion within which a structure fits nearly as well
 
 
@@ -86,11 +94,33 @@ def _ranked(found: list[Identified], trends: list[Trend]) -> tuple[Identified, .
         one.structure: 2 * effective * log(max(one.noise, floor)) + one.estimate.fit.free * (log(effective) + MARGIN)
         for one in found
     }
+    regulating = [value[one.structure] for one in found if not one.plant.integrators]
+    found = [_doubted(one, trends, floor) for one in found]
+    for one in found:
+        if regulating and UNSEEN in one.verdicts:
+            value[one.structure] = max(value[one.structure], min(regulating) + UNLIKELY)
     ranked = sorted(found, key=lambda one: value[one.structure])
     best = value[ranked[0].structure]
     placed = [replace(one, criterion=value[one.structure] - best) for one in ranked]
     placed[0] = replace(placed[0], verdicts=(*placed[0].verdicts, *_nearly(placed)))
     return tuple(placed)
+
+
+def _doubted(one: Identified, trends: list[Trend], floor: float) -> Identified:
+    """An integrating model whose drift is not there while OP rests: a process that has not settled looks like that."""
+    if not one.plant.integrators:
+        return one
+    for trend, drift in zip(trends, np.atleast_1d(one.drift), strict=True):
+        rest = trend.t < trend.instants_of_u[np.flatnonzero(np.diff(trend.u))[0] + 1]
+        t, y = trend.t[rest] - trend.t[0], trend.y[rest]
+        if t.size < REST or t[-1] <= t[0]:
+            continue
+        y = y - drift * t
+        slope, level = np.polyfit(t, y, 1)
+        spread = max(float(np.std(y - slope * t - level)), floor)
+        if abs(slope) * float(np.std(t)) > SURE * spread / sqrt(t.size):
+            return replace(one, verdicts=(UNSEEN, *one.verdicts))
+    return one
 
 
 def _nearly(placed: list[Identified]) -> list[str]:

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from inspect import signature
 
 from simc_core.controllers.forms import Controller
 from simc_core.errors import NotReducible
@@ -24,9 +23,8 @@ from simc_core.studies.advice import (
     slower_than_plant,
 )
 from simc_core.studies.bands import exceeds
-from simc_core.studies.tuned import Tuned, tuned
+from simc_core.studies.tuned import USUAL, Tuned
 
-DEFAULTS = {name: each.default for name, each in signature(tuned).parameters.items() if name != "plant"}
 Guard = Callable[[Tuned], Advice | None]
 GUARDS: tuple[Guard, ...] = (not_stable, large_Ms, other_than_chosen, oscillating_plant)
 ON_TAU_C: tuple[Guard, ...] = (faster_than_dead_time, slower_than_plant)  # silent where tau_c is left to be theta
@@ -34,13 +32,9 @@ ON_TAU_C: tuple[Guard, ...] = (faster_than_dead_time, slower_than_plant)  # sile
 
 def on_simc(request: Request, model: Model, tau_c: float, made: Judged, loop: Loop) -> tuple[Advice, ...]:
     """On settings by SIMC, with remedies that were tried."""
-    choices = DEFAULTS | {
-        "order": 2 if request.kind == "PID" else 1,
-        "tau_c": request.tau_c,
-        "filter": request.filter,
-    }
+    chosen = {"order": 2 if request.kind == "PID" else 1, "tau_c": request.tau_c, "filter": request.filter}
     alone = Reduction(model, (), (), (), (), (), None)
-    of = Tuned(request.plant, choices, alone, tau_c, loop, made.margins)
+    of = Tuned(request.plant, USUAL | chosen, alone, tau_c, loop, made.margins)
     guards = GUARDS if request.tau_c is None else (*GUARDS, *ON_TAU_C)
     return tuple(found for guard in guards if (found := guard(of)))
 

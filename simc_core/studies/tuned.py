@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from inspect import signature
 from typing import Any
 
 from simc_core.controllers.forms import Controller
@@ -117,6 +118,9 @@ def tuned(
         if isinstance(reduction.model, UnstableDelay):
             raise _no_setting(plant, choices, reduction.model, str(error)) from error
         raise
+
+
+USUAL: dict[str, Any] = {name: each.default for name, each in signature(tuned).parameters.items() if name != "plant"}
 
 
 def _closed(plant: Plant, choices: dict[str, Any], reduction: Reduction) -> Tuned:

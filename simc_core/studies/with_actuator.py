@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from simc_core.certificate.verdict import stability
+from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.simulation import Scenario, TimeResponse, simulate
 from simc_core.simulation.actuator.actuation import (
@@ -23,8 +24,10 @@ from simc_core.simulation.actuator.actuation import (
 from simc_core.simulation.actuator.continuous import actuated
 from simc_core.simulation.horizon import times
 from simc_core.simulation.simulate import on_grid
+from simc_core.studies.limit_cycle import LimitCycle, limit_cycle
 
 MOST_DOUBLINGS = 3
+LONGER = 3.0  # times the time after the load, in which a swing of the actuator shows that it lasts
 MANY_STEPS = 2 * FEWEST_STEPS  # a course of more has a step that does not grow with the horizon, and is not doubled
 STILL = 0.02  # a response that moves less than this part of its range over the last fifth has come to rest
 FINE = 4000  # instants for the integral of the linear |e|: trapezoids, good to 1e-5
@@ -37,6 +40,7 @@ class BuiltNumbers:
     limited: time at a limit.   IAE, IAE_linear: over the horizon, without noise in r - y.   largest_move: of u between
     two samples after the first one, nan for a continuous controller.
     noise_y, noise_u: standard deviation over the horizon of what the noise adds to y and u; 0 without noise.
+    cycle: that the actuator keeps up, without noise; None where there is none, or the actuator does what it is told.
     """
 
     u_asked: tuple[float, float]
@@ -47,6 +51,7 @@ class BuiltNumbers:
     largest_move: float
     noise_y: float
     noise_u: float
+    cycle: LimitCycle | None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -133,7 +138,8 @@ def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuat
     whole = time > SAME_INSTANT * inputs.t_end  # less than that is rounding, of a step that begins with the end
     time = time[whole]
     e = np.abs(np.stack([inputs.r(course.t[:-1]), inputs.r(course.t[1:])], axis=1) - course.y)[whole]
-    held = np.abs(noisy.v - noisy.u)[whole] > SAME_INSTANT * np.max(np.abs(noisy.u))
+    beyond = np.abs(noisy.v - np.clip(noisy.v, actuation.u_min, actuation.u_max))[whole]
+    held = beyond > SAME_INSTANT * np.max(np.abs(noisy.u))
     moves = np.abs(np.diff(noisy.u[whole, 0])) if actuation.h else np.array([math.nan])
     return BuiltNumbers(
         (float(noisy.v[whole].min()), float(noisy.v[whole].max())),
@@ -144,4 +150,16 @@ def _numbers(loop: Loop, inputs: Inputs, course: Stepped, noisy: Stepped, actuat
         float(moves.max(initial=0.0)),
         float(np.std((noisy.y - course.y)[whole, 1])),
         float(np.std((noisy.u - course.u)[whole, 1])),
+        _cycle(loop, inputs, actuation) if actuation.mechanical else None,
     )
+
+
+def _cycle(loop: Loop, inputs: Inputs, actuation: Actuation) -> LimitCycle | None:
+    """The swing that is left when set point and load are long past."""
+    begin = inputs.disturbance_time + inputs.disturbance_ramp
+    longer = replace(inputs, t_end=inputs.t_end + LONGER * max(inputs.t_end - begin, 0.0))
+    try:
+        course = actuated(loop, replace(actuation, noise=0.0), longer)
+    except InvalidParameter:  # too many steps
+        return None
+    return limit_cycle(course.t[:-1], course.y[:, 0], begin)

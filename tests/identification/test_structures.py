@@ -118,3 +118,12 @@ def test_no_self_regulating_process_is_taken_for_integrating():
 def test_an_unknown_structure_is_refused_by_name():
     with pytest.raises(InvalidParameter, match="structure must be one of FOPDT"):
         identify(trend(CASES["FOPDT"][0]), "ARX")
+
+
+def test_a_record_that_ends_before_pv_settles_does_not_make_an_integrator():
+    """Two lags of 180, the record ends after 4 of them, noise that shows the drift an integrator would need."""
+    t = np.linspace(0, 720, 1441)
+    late = np.maximum(t - 60, 0)
+    y = 150 * (1 - np.exp(-late / 180) * (1 + late / 180)) + 0.3 * np.random.default_rng(0).normal(size=t.size)
+    ranked = identify_all(Trend(t, 27 + y, [0.0, 30.0], t_u=[0.0, 60.0]))
+    assert not ranked[0].plant.integrators

@@ -5,6 +5,9 @@ import re
 
 import pytest
 
+from pages.common.session import links
+from pages.common.studies.single import present_study, time_responses
+
 from .tools import address, run_page, texts
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1
@@ -144,3 +147,37 @@ def test_heights_and_times_are_fields_and_ramps_are_offered_for_a_level():
     app.text_input("widget_d_ramp").set_value("30").run()
     assert address(app)["d_ramp"] == "30"
     assert not app.exception
+
+
+def test_an_actuator_with_a_resolution_has_a_limit_cycle_that_is_called_so():
+    app = opened(sampling="0.5", r="0.977")
+    assert not app.info
+    app.text_input(key="widget_resolution").set_value("0,2").run()
+    assert address(app)["resolution"] == "0.2"
+    (told,) = (each.value for each in app.info if "Limit cycle" in each.value)
+    assert "not from the tuning" in told
+    assert "resolution 0.2, sampled every 0.5" in texts(app)
+
+
+def test_the_fastest_move_is_emptied_again_and_follows_the_time_unit():
+    app = opened(unit="s", rate_limit="0.5", dead_band="0.1", backlash="0.05")
+    assert "fastest move 0.5" in texts(app)
+    assert app.text_input(key="widget_rate_limit").value == "0.5"
+    app.selectbox(key="sheet_unit").set_value("min").run()
+    assert float(address(app)["rate_limit"]) == pytest.approx(30)
+    app.text_input(key="widget_rate_limit").set_value("").run()
+    assert "rate_limit" not in address(app)
+    assert not app.exception
+
+
+def test_the_set_point_stops_at_its_limit_and_rises_at_its_rate():
+    """r = 2 with a limit 1.5 and a rate 0.25: the ramp to 1.5 in 6 that r_ramp = 6 makes."""
+    limited, _ = links.decode({"plant": EXAMPLE, "r": "2", "r_high": "1.5", "r_rate": "0.25"})
+    plain, _ = links.decode({"plant": EXAMPLE, "r": "1.5", "r_ramp": "6"})
+    both = [time_responses([present_study(each)], each.excitation)[0] for each in (limited, plain)]
+    assert (both[0].y == both[1].y).all()
+    app = opened("Bode of L", r="2", r_high="1.5", r_rate="0.25")
+    assert "The set point stops at 1.5" in texts(app)
+    app.text_input(key="widget_r_high").set_value("-1").run()
+    assert "Highest set point must be ≥ 0" in app.error[0].value
+    assert address(app)["r_high"] == "1.5"

@@ -91,6 +91,9 @@ excitations = st.builds(
     load_time=st.none() | times,
     setpoint_ramp=st.just(0.0) | times,
     disturbance_ramp=st.just(0.0) | times,
+    setpoint_low=st.none() | st.floats(-10, 0),
+    setpoint_high=st.none() | st.floats(0, 10),
+    setpoint_rate=st.none() | times,
 )
 actuators = st.builds(
     Actuator,
@@ -99,6 +102,10 @@ actuators = st.builds(
     tracking_time=st.none() | times,
     noise=st.just(0.0) | times,
     seed=st.integers(0, 2**32 - 1),
+    resolution=st.just(0.0) | times,
+    dead_band=st.just(0.0) | times,
+    backlash=st.just(0.0) | times,
+    rate_limit=st.none() | times,
     h=st.just(0.0) | times,
 )
 homes = st.builds(
@@ -107,6 +114,7 @@ homes = st.builds(
     language=st.sampled_from(sorted(LANGUAGES)),
     exported=st.sampled_from(EXPORTED),
     between=st.sampled_from(["model", "PB"]),
+    scans=st.sampled_from([0, 1]),
     points=st.just(())
     | st.lists(st.tuples(gains, times, times), min_size=2, max_size=5).map(
         lambda rows: tuple((float(x), *row) for x, row in enumerate(rows))

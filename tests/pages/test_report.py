@@ -5,13 +5,14 @@ import io
 import math
 import re
 from html.parser import HTMLParser
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from pages.common.session import links
 from pages.common.studies.single import present_study
-from pages.common.take_home.report.html import document, figures
+from pages.common.take_home.report.html import document, figures, picture
 from pages.common.take_home.report.record import report
 from pages.common.take_home.report.svg import BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH
 from pages.common.take_home.report.texts import curves_csv, markdown, settings_csv
@@ -100,6 +101,16 @@ def test_every_curve_is_in_both_figures_within_its_frame_and_to_scale():
             assert spans[name] == pytest.approx(scale * size, abs=0.3)
 
 
+def test_the_picture_holds_plant_settings_and_both_figures():
+    _, found = made(**FULL)
+    root = ElementTree.fromstring(picture(found))
+    texts_ = [element.text for element in root.iter("{http://www.w3.org/2000/svg}text")]
+    assert texts_[:2] == ["TIC-101: controller settings", found.plant]
+    assert "GAIN 10 %/%, RESET 8 s, RATE 3 s" in texts_[2]
+    assert len(root.findall("{http://www.w3.org/2000/svg}svg")) == 2
+    assert {"t [s]", "y [°C]", "u [%]", "as built", "now"} <= set(texts_)
+
+
 def test_curves_as_csv_hold_every_point():
     _, found = made(**FULL)
     head, *rows = csv.reader(io.StringIO(curves_csv(found)))
@@ -173,11 +184,11 @@ def test_a_link_too_long_for_a_code_is_text_alone():
     assert [tag for tag, _ in Read(document(found)).elements].count("img") == 2
 
 
-def test_the_page_shows_the_report_and_offers_four_files():
+def test_the_page_shows_the_report_and_offers_its_files():
     app = run_page("take_home", "Report", "home_views", **FULL)
     assert not app.exception
     labels = [each.proto.label for each in app.get("download_button")]
-    assert {"HTML, to print", "Markdown", "Settings as CSV", "Curves as CSV"} <= set(labels)
+    assert {"HTML, to print", "Markdown", "Settings as CSV", "Curves as CSV", "Figures as SVG"} <= set(labels)
     assert any('<article class="report">' in str(each.proto.body) for each in app.get("html"))
 
 

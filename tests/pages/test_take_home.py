@@ -1,5 +1,6 @@
 """Take home: the numbers typed into a box, proof beside them, and the way back to my settings."""
 
+import json
 import re
 
 import numpy as np
@@ -264,3 +265,14 @@ def test_my_settings_are_not_retuned():
     )
     assert not [each for each in app.button if each.label.startswith("Retune")]
     assert remedy(app, "Sample every")
+
+
+def test_an_output_written_one_scan_later_costs_a_period_of_dead_time():
+    """FOPDT 8, 1 under PI 4, 8 sampled at 0.2: Ms 1.6908, one scan later 1.898 [a program of its own]."""
+    app = run_page("take_home", plant="exp(-s)/(8s+1)", unit="s", box="matlab_pid", sampling="0.2")
+    assert Ms_of(app, "sampled every 0.2 s") == pytest.approx(1.6908, abs=5e-4)
+    app.toggle(key="scans").set_value(True).run()
+    assert Ms_of(app, "sampled every 0.2 s") == pytest.approx(1.898, abs=1e-3)
+    assert address(app)["scans"] == "1"
+    figure = json.loads(app.get("plotly_chart")[0].proto.spec)
+    assert {"design", "typed", "sampled"} <= {trace["name"] for trace in figure["data"]}

@@ -85,6 +85,8 @@ class Excitation:
 
     setpoint, disturbance: heights of r and of the load d at the plant input.   load_time: when d begins, None for when
     the loop has settled.   setpoint_ramp, disturbance_ramp: times in which the heights are reached, 0 for steps.
+    setpoint_low, setpoint_high, setpoint_rate: limits of the set point and of its speed in the controller; None for
+    none. At rest r = 0, which is within.
     """
 
     setpoint: float = 1.0
@@ -92,24 +94,48 @@ class Excitation:
     load_time: float | None = None
     setpoint_ramp: float = 0.0
     disturbance_ramp: float = 0.0
+    setpoint_low: float | None = None
+    setpoint_high: float | None = None
+    setpoint_rate: float | None = None
 
     def __post_init__(self):
+        for name in ("setpoint_low", "setpoint_high"):
+            if getattr(self, name) is not None:
+                bounds = (-checks.LARGEST_GAIN, 0.0) if name == "setpoint_low" else (0.0, checks.LARGEST_GAIN)
+                object.__setattr__(self, name, checks.real(name, getattr(self, name), *bounds))
+        if self.setpoint_rate is not None:
+            object.__setattr__(self, "setpoint_rate", checks.positive("setpoint_rate", self.setpoint_rate))
         if self.load_time is not None:
             object.__setattr__(self, "load_time", checks.optional_time("load_time", self.load_time))
         scenario = self.scenario()  # which checks the others
-        for name in ("setpoint", "disturbance", "setpoint_ramp", "disturbance_ramp"):
+        for name in ("disturbance", "disturbance_ramp"):
             object.__setattr__(self, name, getattr(scenario, name))
+        largest = checks.LARGEST_GAIN
+        object.__setattr__(self, "setpoint", checks.real("setpoint", self.setpoint, -largest, largest))
+        object.__setattr__(self, "setpoint_ramp", checks.optional_time("setpoint_ramp", self.setpoint_ramp))
 
     def scenario(self, **rest) -> Scenario:
         """The scenario with this and with `rest`, which goes before it."""
         own = {
-            "setpoint": self.setpoint,
+            "setpoint": self.reached,
             "disturbance": self.disturbance,
             "disturbance_time": self.load_time,
-            "setpoint_ramp": self.setpoint_ramp,
+            "setpoint_ramp": self.ramp,
             "disturbance_ramp": self.disturbance_ramp,
         }
         return Scenario(**own | rest)
+
+    @property
+    def reached(self) -> float:
+        """The set point that its limits let through."""
+        r = self.setpoint if self.setpoint_low is None else max(self.setpoint, self.setpoint_low)
+        return r if self.setpoint_high is None else min(r, self.setpoint_high)
+
+    @property
+    def ramp(self) -> float:
+        """The time in which it is reached, with its rate limit."""
+        fastest = abs(self.reached) / self.setpoint_rate if self.setpoint_rate else 0.0
+        return max(self.setpoint_ramp, fastest if fastest >= 1 / checks.LONGEST_TIME else 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +143,7 @@ class Actuator:
     """How the loop is built: the fields of Actuation, None for no limit.
 
     tracking_time: None for the default.   h: sampling period, 0 if continuous.   law: of the sampled controller.
+    resolution, dead_band, backlash: of the actuator, 0 for none.   rate_limit: None for none.
     """
 
     u_min: float | None = None
@@ -126,6 +153,10 @@ class Actuator:
     seed: int = 0
     h: float = 0.0
     law: str = "backward"
+    resolution: float = 0.0
+    dead_band: float = 0.0
+    backlash: float = 0.0
+    rate_limit: float | None = None
 
     def __post_init__(self):
         put = object.__setattr__
@@ -135,7 +166,7 @@ class Actuator:
         if self.tracking_time is not None:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
         scenario = self.scenario()  # which checks what it is made of
-        for name in ("noise", "seed", "h"):
+        for name in ("noise", "seed", "h", "resolution", "dead_band", "backlash"):
             put(self, name, getattr(scenario.actuation, name))
 
     def scenario(self, excitation: Excitation = Excitation()) -> Scenario:
@@ -266,13 +297,14 @@ PLACES: dict[str, tuple[str, str]] = {
     "filter_outer": ("cascade", "filter_outer"),
     **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
     **{name: ("record", name) for name in ("example", "structure", "begin", "end", "bad")},
-    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between")},
+    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between", "scans")},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
     "d_time": ("excitation", "load_time"),
     "r_ramp": ("excitation", "setpoint_ramp"),
     "d_ramp": ("excitation", "disturbance_ramp"),
     **{f"compared_{name}": ("compared", name) for name in ("plant", "kind", "tau_F", "Ms", "criterion", "rule")},
+    **{f"r_{end}": ("excitation", f"setpoint_{end}") for end in ("low", "high", "rate")},
 }
 
 
@@ -346,6 +378,7 @@ TIMES = (
     *("tau_c", "h", "tau_F", "tracking_time", "tau_c_inner", "tau_c_outer"),
     *("load_time", "setpoint_ramp", "disturbance_ramp"),
 )
+RATES = ("rate_limit", "setpoint_rate")
 
 
 def _rescaled(plant: Plant, facts: StepFacts | None, time: Fraction) -> tuple[Plant, StepFacts | None]:
@@ -362,6 +395,12 @@ def of_plant(facts: StepFacts | None, plant: Plant) -> StepFacts | None:
 
 
 def _in_time(record, time: Fraction):
-    """The record with those of its fields that are times multiplied."""
-    given = {name: getattr(record, name) for name in TIMES if getattr(record, name, None)}
-    return replace(record, **{name: value * time.numerator / time.denominator for name, value in given.items()})
+    """The record with those of its fields that are times multiplied, and its rates divided."""
+    given = {name: getattr(record, name) for name in (*TIMES, *RATES) if getattr(record, name, None)}
+    return replace(
+        record, **{name: _scaled(value, 1 / time if name in RATES else time) for name, value in given.items()}
+    )
+
+
+def _scaled(value: float, ratio: Fraction) -> float:
+    return value * ratio.numerator / ratio.denominator

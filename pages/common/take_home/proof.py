@@ -2,14 +2,18 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
+
+import numpy as np
 
 from pages.common.parts.units import with_plain_unit
 from pages.common.session.design import Design
-from simc_core import Loop, longest_sampling_period, sampled_margins
+from simc_core import Actuation, Loop, TimeResponse, longest_sampling_period, sampled_margins, simulate
 from simc_core.errors import SimcError
 from simc_core.notation import number, rounded_down
 from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.simulation.horizon import times
 
 ROWS = {  # of Margins: label; delay_margin in the time unit
     "Ms": "Ms",
@@ -24,14 +28,28 @@ def sampled(loop: Loop, design: Design) -> tuple[str, Margins]:
     """Title and margins with the sampling period of the design. Raises SimcError where its law does not exist."""
     h = design.actuator.h
     title = f"sampled every {number(h)} {design.sheet.time_unit}".rstrip()
-    return title, sampled_margins(loop, h, design.actuator.law)
+    return title, sampled_margins(loop, h, design.actuator.law, design.home.scans)
+
+
+def sampled_response(first: Loop, loop: Loop, design: Design, built: Actuation | None = None) -> TimeResponse:
+    """y and u with the sampling period, over the horizon of the loop `first`; built: with more than that.
+
+    An output that is written one scan later acts on the plant as one more period of dead time of u.
+    """
+    begins, t_end = times(first, design.excitation.scenario())
+    late = design.actuator.h * design.home.scans
+    actuation = built or Actuation(h=design.actuator.h, law=design.actuator.law)
+    behind = replace(loop, plant=replace(loop.plant, theta=loop.plant.theta + late))
+    asked = design.excitation.scenario(disturbance_time=max(begins - late, 0.0), t_end=t_end, actuation=actuation)
+    found = simulate(behind, asked)
+    return replace(found, d=np.where(found.t >= begins, found.d, 0.0)) if late else found
 
 
 @lru_cache(maxsize=16)  # a fifth of a second, asked for by warnings, remedies and reports
-def longest_period(loop: Loop, law: str) -> float:
+def longest_period(loop: Loop, law: str, scans: int) -> float:
     """The sampling period that costs 5 % of Ms, rounded down; infinite where none does, nan where there is none."""
     try:
-        longest = longest_sampling_period(loop, law)
+        longest = longest_sampling_period(loop, law, scans)
     except SimcError:
         return math.nan
     return rounded_down(longest) if math.isfinite(longest) else longest

@@ -66,7 +66,8 @@ def _same_filter(present: Study, found: Typed) -> dict[str, float]:
 def _faster(design: Design, found: Typed) -> Iterator[tuple[str, dict[str, Any]]]:
     """The longest sampling period that costs 5 % of Ms."""
     h = design.actuator.h
-    longest = longest_period(Loop(design.plant, found.effective), design.actuator.law) if h else h
+    loop = Loop(design.plant, found.effective)
+    longest = longest_period(loop, design.actuator.law, design.home.scans) if h else h
     if 0 < longest < h:
         yield f"Sample every {time_text(longest, design.sheet)}", {"sampling": longest}
 

@@ -1,11 +1,13 @@
 """The report of the loop: files to keep, and how it looks on paper."""
 
+from functools import partial
+
 import streamlit as st
 
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.studies.single import Study
-from pages.common.take_home.report.html import STYLE, body, document
+from pages.common.take_home.report.html import STYLE, body, document, picture
 from pages.common.take_home.report.record import report
 from pages.common.take_home.report.texts import curves_csv, markdown, settings_csv
 
@@ -13,6 +15,7 @@ FILES = (  # label, ending, kind, from the record
     ("HTML, to print", "html", "text/html", document),
     ("Markdown", "md", "text/markdown", markdown),
     ("Settings as CSV", "csv", "text/csv", settings_csv),
+    ("Figures as SVG", "svg", "image/svg+xml", picture),
     ("Curves as CSV", "curves.csv", "text/csv", curves_csv),
 )
 
@@ -23,6 +26,6 @@ def report_view(design: Design, present: Study) -> None:
     name = "".join(c if c.isalnum() else "_" for c in design.sheet.tag) or "loop"
     with st.container(horizontal=True, gap="small"):
         for label, ending, kind, make in FILES:
-            st.download_button(label, make(found), f"{name}.{ending}", kind, key=f"report_{ending}")
+            st.download_button(label, partial(make, found), f"{name}.{ending}", kind, key=f"report_{ending}")
     st.caption("A PDF is made by the print command of the browser, from the HTML file.")
     st.html(f"<style>{STYLE}</style>{body(found)}")

@@ -90,6 +90,8 @@ def _settings(made: GainSchedule, design: Design) -> None:
     for x, controller, each in zip(made.values, made.rows, judged, strict=True):
         shown = {"value": number(x, 6)}
         for name, value in controller.settings.items():
+            if name == "tau_D" and not any(row.settings["tau_D"] for row in made.rows):
+                continue
             label = name.replace("tau_", "τ")
             shown[with_plain_unit(label, unit * name.startswith("tau"))] = number(value)
         rows.append(shown | {"Ms": number(each.Ms) if each.stable else "not stable"})

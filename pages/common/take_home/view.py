@@ -13,7 +13,7 @@ from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, study_of_settings, time_responses
-from pages.common.take_home.proof import longest_period, sampled, table
+from pages.common.take_home.proof import longest_period, sampled, sampled_response, table
 from pages.common.take_home.remedies import remedies
 from pages.common.take_home.typed import as_text, assumed, read_from, rows, typed_into
 from simc_core import BOXES, Typed
@@ -22,6 +22,7 @@ from simc_core.figures import input_figure, output_figure
 from simc_core.implementation.boxes.box import STRUCTURE
 from simc_core.notation import number
 from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.simulation import TimeResponse
 
 HEIGHT = 260  # px
 LAWS = {"backward": "backward", "tustin": "Tustin"}
@@ -58,6 +59,13 @@ def choose(design: Design) -> None:
             format_func=LAWS.get,
             key="law",
             on_change=lambda: state.overtaken("law") or state.change(law=state.widget("law")),
+        )
+        state.set_widget("scans", bool(design.home.scans))
+        st.toggle(
+            "Output written one scan later",
+            key="scans",
+            on_change=lambda: state.overtaken("scans") or state.change(scans=int(state.widget("scans"))),
+            help="A box that reads, computes, and writes at the end of its scan or at the next one.",
         )
 
 
@@ -100,6 +108,8 @@ def proof(design: Design, present: Study, found: Typed) -> None:
     _remedies(design, present, found)
     studies = [present, typed]
     times = list(zip(("design", "typed"), time_responses(studies, design.excitation), strict=True))
+    if design.actuator.h and len(columns) == 3:
+        times += _sampled_response(present, typed, design)
     field(
         (
             Panel("typed_y", "y", "Output y of the design and as typed", output_figure(times, HEIGHT, present.stable)),
@@ -161,6 +171,14 @@ def _take(key: str, given: dict[str, float | str], action: str, sheet: Sheet) ->
     state.remember(f"box_{key}_refused", why)
 
 
+def _sampled_response(present: Study, typed: Study, design: Design) -> list[tuple[str, TimeResponse]]:
+    """The loop as typed with the sampling period; none where that takes too many steps."""
+    try:
+        return [("sampled", sampled_response(present.loop, typed.loop, design))]
+    except SimcError:
+        return []
+
+
 def _remedies(design: Design, present: Study, found: Typed) -> None:
     """What filter and sampling of the box cost, made good again by a click."""
     try:
@@ -183,7 +201,7 @@ def _sampled(typed: Study, design: Design) -> dict[str, Margins]:
 
 def _sampling(typed: Study, design: Design) -> None:
     """Where sampling costs more than it should, up to which period it does not."""
-    longest = longest_period(typed.loop, design.actuator.law)
+    longest = longest_period(typed.loop, design.actuator.law, design.home.scans)
     if design.actuator.h > longest:
         period = time_text(longest, design.sheet)
         st.warning(f"Sampling is slow for this loop: take {period} or less, and $M_s$ rises by 5 % at most.")

@@ -9,7 +9,7 @@ from streamlit.delta_generator import DeltaGenerator
 from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.refusals import explain_refusal
-from pages.common.parts.units import time_text, with_plain_unit, with_unit
+from pages.common.parts.units import time_text, unit_of, with_plain_unit, with_unit
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
@@ -19,6 +19,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.figures import built_input_figure, built_output_figure
 from simc_core.notation import number
 from simc_core.studies.built_advice import error_integral, out_of_reach, protections_compared, sampling_not_in_tuning
+from simc_core.studies.limit_cycle import LimitCycle
 from simc_core.studies.with_actuator import AsBuilt, BuiltNumbers, as_built
 
 VIEW = "As built"
@@ -55,6 +56,11 @@ def words(design: Design) -> str:
         found.append(f"{u}{unit} limited to {low} … {high}")
     elif low is not None or high is not None:
         found.append(f"{u}{unit} limited to ≥ {low}" if high is None else f"{u}{unit} limited to ≤ {high}")
+    found += [
+        f"{label.lower()} {number(getattr(actuator, name))}{with_unit('', unit_of(unit, sheet))}"
+        for name, (label, unit, _) in MECHANISM.items()
+        if getattr(actuator, name)
+    ]
     if actuator.noise:
         found.append(f"measurement noise {number(actuator.noise)}")
     if actuator.h:
@@ -73,6 +79,8 @@ def actuator_view(study: Study, design: Design) -> None:
         with st.spinner("Simulating the loop as built"):
             found = as_built(study.loop, design.actuator.scenario(design.excitation))
         st.html(numbers_html(found, design.sheet))
+        if found.numbers is not None and found.numbers.cycle:
+            st.info(cycle_in_words(found.numbers.cycle, design.sheet))
         left, right = st.columns(2, gap="small")
         with left:
             show(built_output_figure(found, HEIGHT), "built_y", "Output y of the loop as built and of the linear loop")
@@ -96,6 +104,8 @@ def _inputs(design: Design) -> None:
         _limit("Highest", "u_max", design, under)
         _number("Tracking time", "T_t", TRACKING, "automatic", unit="time", under=under)
         _number("Sampling of the controller", "sampling", SAMPLING, unit="time", under=under)
+        for name, (label, unit, help_) in MECHANISM.items():
+            _number(label, name, help_, "none" if name == "rate_limit" else None, unit=unit, under=under)
         _number("Noise (std. dev.)", "noise", NOISE, unit="PV", under=under)
         _number("Random seed", "seed", "The same number gives the same noise.", under=under)
     _range_of_OP(design)
@@ -111,6 +121,12 @@ TRACKING = (
     r"Empty: $\sqrt{\tau_I \tau_D}$, or $\tau_I$ for PI [Åström and Hägglund 2006]."
 )
 SAMPLING = "The controller acts every so often and holds u in between; 0 for a continuous one."
+MECHANISM = {  # label, unit, help
+    "resolution": ("Resolution", "OP", "The output moves in steps of this size; 0 for none."),
+    "dead_band": ("Dead band", "OP", "A positioner rests until the output is farther away than this; 0 for none."),
+    "backlash": ("Backlash", "OP", "Play of the linkage: lost at every turn of direction; 0 for none."),
+    "rate_limit": ("Fastest move", "OP/time", "Largest speed of the actuator; empty for no limit."),
+}
 NOISE = "Standard deviation of the measurement noise; a new value at each step of the controller."
 
 
@@ -183,7 +199,7 @@ def numbers_html(found: AsBuilt, sheet: Sheet) -> str:
 def cells_of(found: AsBuilt, numbers: BuiltNumbers, sheet: Sheet) -> list[tuple[str, str, str]]:
     """label, text, and what it means."""
     cells = [("IAE: as built · linear", _pair(numbers.IAE, numbers.IAE_linear), "∫|r − y| over the time shown")]
-    if found.actuation.limited:
+    if found.actuation.limited or found.actuation.mechanical:
         cells += [
             (
                 with_plain_unit(f"{sheet.u_name} requested", sheet.OP_unit),
@@ -195,8 +211,9 @@ def cells_of(found: AsBuilt, numbers: BuiltNumbers, sheet: Sheet) -> list[tuple[
                 _range(numbers.u_given, sheet),
                 "smallest and largest value the actuator gives",
             ),
-            (with_plain_unit("Time at a limit", sheet.time_unit), number(numbers.limited, DIGITS), "in total"),
         ]
+    if found.actuation.limited:
+        cells.append((with_plain_unit("Time at a limit", sheet.time_unit), number(numbers.limited, DIGITS), "in total"))
     if found.actuation.noise:
         both = _pair(numbers.noise_y, numbers.noise_u)
         cells.append(
@@ -212,7 +229,7 @@ def explained(found: AsBuilt, study: Study, design: Design) -> str:
     begins = found.built.t[found.built.d != 0]
     actuator, asked = design.actuator, design.excitation
     lines = [
-        f"Set point {number(asked.setpoint)} from t = 0"
+        f"Set point {number(asked.reached)} from t = 0"
         + (f", load {number(asked.disturbance)} from t = {time_text(begins[0], design.sheet)}." if len(begins) else ".")
     ]
     if found.actuation.limited and math.isfinite(found.T_t):
@@ -230,8 +247,18 @@ def explained(found: AsBuilt, study: Study, design: Design) -> str:
         allows = "allows" if study.tuning.h else "can allow"
         lines.append(f"The half rule {allows} for the sampling, h/2 in θ: half rule page.")
     if not actuator.on:
-        lines.append("Nothing is limited yet: type a limit, noise or a sampling period above.")
+        lines.append("Nothing is limited yet: type a limit, a resolution, noise or a sampling period above.")
     return " ".join(lines)
+
+
+def cycle_in_words(cycle: LimitCycle, sheet: Sheet) -> str:
+    """A swing that the actuator keeps up: what it is, and what it is not."""
+    swing = number(cycle.swing, DIGITS) + with_unit("", sheet.PV_unit)
+    return (
+        f"**Limit cycle:** y swings by {swing} from peak to peak, once in {time_text(cycle.period, sheet, DIGITS)}, "
+        "and does not come to rest. It comes from the actuator and the integral action, not from the tuning. A finer "
+        "actuator makes it smaller."
+    )
 
 
 def _pair(first: float, second: float) -> str:

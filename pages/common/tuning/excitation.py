@@ -4,9 +4,16 @@ import streamlit as st
 
 from pages.common.parts.number_field import design_number
 from pages.common.session.design import Design
+from simc_core.notation import number
 
 STEP = "Height of its change. Margins and metrics are those of unit steps in any case."
 LOAD = "Height of the disturbance at the plant input, in the unit of OP. " + STEP
+LIMITED = "Of the controller, as a change from where the loop rests; empty for none."
+LIMITS = (
+    ("r_low", "Lowest set point", "PV"),
+    ("r_high", "Highest set point", "PV"),
+    ("r_rate", "Fastest set point", "PV/time"),
+)
 RAMP = "Time in which it rises evenly to its height; 0 for a step at once."
 
 
@@ -24,3 +31,8 @@ def excitation(design: Design) -> None:
             first, second, under = *st.columns(2, gap="small"), st.container()
             design_number("r_ramp", "Set point over", quantity="time", place=first, under=under, help=RAMP)
             design_number("d_ramp", "Load over", quantity="time", place=second, under=under, help=RAMP)
+        with st.popover("Limits of the set point", width="stretch"):
+            for name, label, unit in LIMITS:
+                design_number(name, label, quantity=unit, optional=True, placeholder="none", help=LIMITED)
+        if asked.reached != asked.setpoint:
+            st.caption(f"The set point stops at {number(asked.reached)}, its limit.")

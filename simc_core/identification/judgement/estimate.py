@@ -65,14 +65,12 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
     drifts = [True] if structure.integrating else [drift] if drift is not None else [True, False]
     begun = all(_start_shows(record) for record in records)
     startable = begun and not structure.always_free and bool(structure.lags)
-    begins = [True, False] if startable else [False]
-    first = fitted(structure, records, drifts[0], begins[-1], floor)
-    fits = {(drifts[0], begins[-1]): first}
-    for one in drifts:
-        for other in begins:
-            if (one, other) not in fits:
-                near = [first.point.x, list(fits.values())[-1].point.x]
-                fits[one, other] = continued(structure, first.problem.records, one, other, floor, near)
+    # searched for with drift and without: what drift makes of a poor structure is no place to begin from
+    fits = {(one, False): fitted(structure, records, one, False, floor) for one in drifts}
+    near = [fit.point.x for fit in fits.values()]
+    if startable:
+        for one, alone in [(key[0], fit) for key, fit in fits.items()]:
+            fits[one, True] = continued(structure, alone.problem.records, one, True, floor, near)
     return _weighed(fits, floor, step)
 
 

@@ -54,6 +54,10 @@ class Actuation:
         Sampling period of the controller, in the user's time unit; 0 if continuous.
     law : {"backward", "tustin"}
         Of a sampled controller, see controllers/discrete.py.
+    resolution, dead_band, backlash : float
+        Of the actuator, in units of u, 0 for none; see mechanism.py.
+    rate_limit : float
+        The largest |du/dt|, infinite for none.
 
     Raises
     ------
@@ -77,6 +81,10 @@ class Actuation:
     seed: int = 0
     h: float = 0.0
     law: str = "backward"
+    resolution: float = 0.0
+    dead_band: float = 0.0
+    backlash: float = 0.0
+    rate_limit: float = math.inf
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -91,6 +99,10 @@ class Actuation:
         put(self, "seed", checks.whole("seed", self.seed, 0, 2**32 - 1))
         put(self, "h", checks.optional_time("h", self.h))
         known_law(self.law)
+        for name in ("resolution", "dead_band", "backlash"):
+            put(self, name, checks.real(name, getattr(self, name), 0.0, checks.LARGEST_GAIN))
+        if self.rate_limit != math.inf:
+            put(self, "rate_limit", checks.positive("rate_limit", self.rate_limit))
 
     @property
     def limited(self) -> bool:
@@ -98,9 +110,14 @@ class Actuation:
         return self.u_min > -math.inf or self.u_max < math.inf
 
     @property
+    def mechanical(self) -> bool:
+        """Whether the actuator does something else than it is told, within its limits."""
+        return bool(self.resolution or self.dead_band or self.backlash) or self.rate_limit < math.inf
+
+    @property
     def linear(self) -> bool:
         """Whether the exact engine of linear loops does the same."""
-        return not self.limited and self.noise == 0 and self.h == 0
+        return not self.limited and not self.mechanical and self.noise == 0 and self.h == 0
 
 
 def rest_within(u_min: float, u_max: float) -> None:

@@ -13,6 +13,7 @@ step is taken: module actuation.
 """
 
 import math
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.simulation.actuator.actuation import (
     FEWEST_STEPS,
+    MOST_STEPS,
     OF_PLANT,
     W1,
     W2,
@@ -43,6 +45,7 @@ from simc_core.simulation.actuator.sampled import sampled
 # Columns of z behind x. ASKED: u at the start and the end of the step before if there were no limits, GIVEN: as it is.
 # ASKED1 and INTEGRAL lack what u of that step adds to them.   ASK, RATE: see _known, RATE over the whole step.
 INTEGRAL, ASKED0, ASKED1, GIVEN0, GIVEN1, ASK0, ASK1, RATE = OF_LAW = range(8)
+PER_DEAD_TIME = 50  # samples that stand for a continuous controller whose actuator jumps
 COLUMNS = len(OF_LAW) + len(OF_PLANT)
 
 
@@ -51,10 +54,21 @@ def actuated(loop: Loop, actuation: Actuation, inputs: Inputs) -> Stepped:
 
     Raises InvalidParameter: derivative action without a filter on a plant without inertia or on a set-point step,
     more than actuation.MOST_STEPS steps.
+
+    A continuous controller whose actuator has a resolution, a dead band, play or a limited rate is stepped as one that
+    is sampled very often: such an actuator jumps, and between jumps there is nothing to be gained by a ramp.
     """
     form = loop.controller.to_parallel()
+    if actuation.mechanical and not actuation.h:
+        actuation = replace(actuation, h=_often(loop, inputs))
     with np.errstate(over="ignore", invalid="ignore"):
         return sampled(loop, form, actuation, inputs) if actuation.h else _continuous(loop, form, actuation, inputs)
+
+
+def _often(loop: Loop, inputs: Inputs) -> float:
+    """A sampling period that is as good as none, for an actuator that moves by jumps."""
+    shortest = min(inputs.t_end / FEWEST_STEPS, loop.plant.theta / PER_DEAD_TIME or math.inf)
+    return max(shortest, inputs.t_end / MOST_STEPS * (1 + 1e-9))
 
 
 def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs) -> Stepped:

@@ -28,12 +28,14 @@ from simc_core.simulation.actuator.actuation import (
     stepped,
     tracking_time_in_use,
 )
+from simc_core.simulation.actuator.mechanism import Moved, mechanism
 from simc_core.simulation.actuator.one_step import Linear, whole_steps
 
 # Columns of z behind x. MEASURED: y at the end of the step before, but for its u.   From STATE on: State of the last
-# sample, its v in ASKED.   GIVEN: u of the step before.   NOISE, SETPOINT: in the rows of the samples.
-MEASURED, STATE, ASKED, GIVEN, NOISE, SETPOINT = 0, 1, 8, 9, 10, 11
-COLUMNS = 12 + len(OF_PLANT)
+# sample, its v in ASKED, its u, between the limits, in KNOWN.   GIVEN: u of the step before, as the actuator makes it.
+# NOISE, SETPOINT: in the rows of the samples.
+MEASURED, STATE, ASKED, KNOWN, GIVEN, NOISE, SETPOINT = 0, 1, 8, 9, 10, 11, 12
+COLUMNS = 13 + len(OF_PLANT)
 
 
 def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs) -> Stepped:
@@ -54,20 +56,30 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     z[:N:fine, n + NOISE] = actuation.noise * np.random.default_rng(actuation.seed).standard_normal(samples)
     z[:N:fine, n + SETPOINT] = inputs.r(h * np.arange(samples))
     ahead[::fine] = [with_sample.dot] * samples
-    _march(z, n, ahead, reach, actuation)
+    _march(z, n, ahead, reach, actuation, dt)
     v, u = (np.repeat(z[1 : N + 1, n + column, None], 2, axis=1) for column in (ASKED, GIVEN))
     return stepped(dt, z[:N] @ y.T, v, u, h)
 
 
-def _march(z: np.ndarray, n: int, ahead: list[Callable], reach: tuple[int, int], actuation: Actuation) -> None:
+def _march(
+    z: np.ndarray, n: int, ahead: list[Callable], reach: tuple[int, int], actuation: Actuation, dt: float
+) -> None:
     """All steps, each with its matrix."""
     low, high = actuation.u_min, actuation.u_max
-    asked, given = column(z, n + ASKED, 1), column(z, n + GIVEN, 1)
+    asked, known, given = (column(z, n + each, 1) for each in (ASKED, KNOWN, GIVEN))
     w1, w2 = column(z, W1, reach[0]), column(z, W2, reach[1])
-    for j, (take, row, head) in enumerate(zip(ahead, z, z[1:, : n + GIVEN], strict=False)):
+    moved, u = _mechanism(actuation, dt), 0.0
+    for j, (take, row, head) in enumerate(zip(ahead, z, z[1:, : n + KNOWN], strict=False)):
         take(row, head)
-        u = asked[j]
-        given[j] = w1[j] = w2[j] = low if u < low else high if u > high else u
+        sent = asked[j]
+        sent = known[j] = low if sent < low else high if sent > high else sent
+        u = given[j] = w1[j] = w2[j] = moved(sent, u) if moved else sent
+
+
+def _mechanism(actuation: Actuation, dt: float) -> Moved | None:
+    if not actuation.mechanical:
+        return None
+    return mechanism(actuation.resolution, actuation.dead_band, actuation.rate_limit * dt, actuation.backlash)
 
 
 def _matrices(
@@ -82,8 +94,8 @@ def _matrices(
     x, z = rows[:n] + np.outer(own, rows[n + GIVEN]), rows[n:]
     y = z[MEASURED] + (system.C @ own + at_once2 * system.D) * z[GIVEN]
     law = law_for(actuation.law, form, actuation.h)
-    state = law.step(form, actuation.h, pull, State(*z[STATE : GIVEN + 1]), z[SETPOINT], y + z[NOISE])
+    state = law.step(form, actuation.h, pull, State(*z[STATE:GIVEN]), z[SETPOINT], y + z[NOISE])
     after, (y0,), (y1,) = plant.over(x, z[OF_PLANT])
     with_sample = np.array([*after, y1, *state[:-1]])
-    without = np.array([*after, y1, *z[STATE:GIVEN]])
+    without = np.array([*after, y1, *z[STATE:KNOWN]])
     return with_sample, without, np.array([y0, y1])

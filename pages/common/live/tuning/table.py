@@ -84,22 +84,22 @@ class Grid:
         """What r and d do, for the browser."""
         asked = self.excitation
         return {
-            "r": asked.setpoint,
+            "r": asked.reached,
             "d": asked.disturbance,
             "load": self.load,
-            "r_ramp": asked.setpoint_ramp,
+            "r_ramp": asked.ramp,
             "d_ramp": asked.disturbance_ramp,
         }
 
     @property
     def ramps(self) -> tuple[float, float]:
         """Of r and d."""
-        return self.excitation.setpoint_ramp, self.excitation.disturbance_ramp
+        return self.excitation.ramp, self.excitation.disturbance_ramp
 
     @property
     def heights(self) -> np.ndarray:
         """Of r and d."""
-        return np.array([self.excitation.setpoint, self.excitation.disturbance])
+        return np.array([self.excitation.reached, self.excitation.disturbance])
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +146,7 @@ def grid_around(loop: Loop, curves: Sequence[Factored], excitation: Excitation, 
     begins, wanted = times(loop, excitation.scenario())
     end = kept_end(wanted, shown)
     load, theta = begins if excitation.load_time is not None else begins / wanted * end, loop.plant.theta
-    starts = (0.0, load, excitation.setpoint_ramp, load + excitation.disturbance_ramp)
+    starts = (0.0, load, excitation.ramp, load + excitation.disturbance_ramp)
     breaks = [start + k * theta for start in starts for k in range(JUMPS + 1)]
     t = instants(np.linspace(0.0, end, POINTS + 1), breaks, end)
     return Grid(t, load, omega_grid(curves), excitation)

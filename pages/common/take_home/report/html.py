@@ -5,17 +5,19 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from io import BytesIO
 from pathlib import Path
+from textwrap import wrap
 
 import numpy as np
 import segno
 
 from pages.common.take_home.proof import table
 from pages.common.take_home.report.record import Report, Row
-from pages.common.take_home.report.svg import FAR, Curve, figure
+from pages.common.take_home.report.svg import FAR, HEIGHT, WIDTH, Curve, figure
 from simc_core.figures import palette
 
 STYLE = (Path(__file__).parent / "report.css").read_text(encoding="utf-8")
 PAPER = "@page { size: A4; margin: 12mm; }\nbody { margin: 0; }\n"
+LINE, CHARACTERS = 14, 105  # px and length, of the texts of a picture
 LONGEST_IN_QR = 1000  # characters; more make a code that a telephone does not read from paper
 
 
@@ -71,6 +73,25 @@ def figures(report: Report) -> tuple[str, str]:
         limit = view["y"] if signal == "y" else _limit_of_u(report, view["y"])
         found.append(figure(curves, x_title, f"{signal} [{unit}]" if unit else signal, f"view_{signal}", limit))
     return found[0], found[1]
+
+
+def picture(report: Report) -> str:
+    """Both figures as one SVG, with plant and settings in it."""
+    settings = ", ".join(f"{row.name} {row.value} {row.unit}".rstrip() for row in report.typed or report.settings)
+    texts = (title(report), report.plant, f"{report.box or report.how}: {settings}")
+    lines = [line for text in texts for line in wrap(text, CHARACTERS)]
+    width, height = 2 * WIDTH, LINE * len(lines) + 8 + HEIGHT
+    size = f'width="{width}" height="{height}"'
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" {size}>']
+    parts += [f'<rect {size} fill="white"/>']
+    parts += [
+        f'<text x="8" y="{LINE * i}" font-family="sans-serif" font-size="10">{escape(line)}</text>'
+        for i, line in enumerate(lines, start=1)
+    ]
+    for i, svg in enumerate(figures(report)):
+        place = f'<svg x="{i * WIDTH}" y="{LINE * len(lines) + 8}" width="{WIDTH}" height="{HEIGHT}" '
+        parts.append(svg.replace("<svg ", place, 1))
+    return "".join([*parts, "</svg>"])
 
 
 def _drawn(report: Report) -> str:

@@ -10,7 +10,7 @@ from pages.common.parts.units import time_text
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, attempt, study_of_settings
-from pages.common.take_home.proof import longest_period, sampled
+from pages.common.take_home.proof import longest_period, sampled, sampled_response
 from pages.common.take_home.typed import SPAN, assumed, rows, typed_into
 from simc_core import BOXES, Typed, simulate
 from simc_core.errors import SimcError
@@ -120,7 +120,7 @@ def _responses(
     if final is not present or not built.linear:
         name = "as built" if not built.linear else "as typed"
         try:
-            found[name] = simulate(final.loop, replace(asked, actuation=built))
+            found[name] = sampled_response(present.loop, final.loop, design, built)
         except SimcError as error:
             why.append(f"The loop as built is not drawn: {error}")
     found["design"] = simulate(present.loop, asked)
@@ -182,7 +182,7 @@ def _signals(sheet: Sheet) -> list[Row]:
 
 def _asked(design: Design) -> str:
     asked, sheet = design.excitation, design.sheet
-    said = [f"set point {number(asked.setpoint)} {sheet.PV_unit}".rstrip()]
+    said = [f"set point {number(asked.reached)} {sheet.PV_unit}".rstrip()]
     said += [f"then load {number(asked.disturbance)} {sheet.OP_unit}".rstrip()]
     ends = (("from", design.actuator.u_min), ("to", design.actuator.u_max))
     limits = [f"{word} {number(sheet.on_scale(u))}" for word, u in ends if u is not None]
@@ -192,7 +192,7 @@ def _asked(design: Design) -> str:
 def _on_sampling(final: Study, design: Design) -> list[str]:
     """Where h is too long, and what an integral in 32 bits does not see."""
     found, h = [], design.actuator.h
-    longest, sheet = longest_period(final.loop, design.actuator.law), design.sheet
+    longest, sheet = longest_period(final.loop, design.actuator.law, design.home.scans), design.sheet
     if h > longest:
         period = time_text(longest, sheet)
         found.append(f"Sampling is slow for this loop: with {period} or less Ms rises by 5 % at most.")
