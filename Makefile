@@ -40,6 +40,7 @@ bench: $(VENV)/dev.stamp
 	$(BIN)/python -m benchmarks.cascade
 	$(BIN)/python -m benchmarks.actuator
 	$(BIN)/python -m benchmarks.optimum
+	$(BIN)/python -m benchmarks.identification
 
 bench-ui: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m benchmarks.ui

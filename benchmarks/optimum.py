@@ -16,6 +16,7 @@ from benchmarks.recompute import forgotten, keep, median_times, pin
 from simc_core import IdealPid, Loop, Plant, comparison, margins, optimal, performance, trade_off
 from simc_core.optimal.robust_gains import robust_gains
 from simc_core.optimal.under_ms import references
+from simc_core.studies.optimum import front
 
 MS, GENERATIONS = 1.59, 30
 CASES = {
@@ -67,6 +68,7 @@ def fresh(function, plant: Plant, *how) -> object:
     forgotten()
     robust_gains.cache_clear()
     references.cache_clear()
+    front.cache_clear()
     return function(plant, *how)
 
 

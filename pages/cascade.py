@@ -35,7 +35,8 @@ VIEWS = {"Live": instrument, "Figures": figures, "Bode": frequencies, "Settings"
 PAIRS = "Published pairs"
 
 design = header.show("cascade")
-present, refusal = attempt(design.cascade)
+with st.spinner("Tuning both loops"):
+    present, refusal = attempt(design.cascade)
 picture = st.container()
 with st.container(key="cascade"):
     controls, view = st.columns([4, 11], gap="medium")

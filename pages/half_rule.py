@@ -7,15 +7,17 @@ from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
 from pages.common.shell import header
 from pages.common.studies.single import study
-from simc_core.reduction.half_rule import half_rule
+from simc_core.studies.tuned import reduced
 
 header.show("half_rule")
 with explain_refusal():
-    told, judged = st.columns(2, gap="medium")
+    with st.container(key="stack_half_rule"):
+        told, judged = st.columns(2, gap="medium")
     with told:
         reduction_view.choices()
         plant, tuning = state.plant(), state.tuning()
-        reduction = half_rule(plant, tuning.order, tuning.h, tuning.rules, tuning.tau_F)
+        with st.spinner("Reducing the plant"):
+            reduction = reduced(plant, tuning.order, tuning.h, tuning.rules, tuning.tau_F)
         reduction_view.story(reduction)
     with judged:
         reduction_view.budget(reduction)

@@ -7,7 +7,8 @@ from pages.common.plant.view import facts, figures
 from pages.common.shell import header
 
 header.show("plant")
-entry, view = st.columns([5, 8], gap="medium")
+with st.container(key="stack_plant"):
+    entry, view = st.columns([5, 8], gap="medium")
 with entry:
     plant = plant_entry()
     facts(plant)

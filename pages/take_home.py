@@ -39,7 +39,8 @@ def in_the_box(design: Design, present: Study) -> None:
 
 design = header.show("take_home")
 with explain_refusal():
-    present = present_study(design)
+    with st.spinner("Tuning the loop"):
+        present = present_study(design)
     with st.container(key="take_home"):
         controls, shown = st.columns([4, 11], gap="medium")
     with controls:

@@ -86,10 +86,11 @@ def open_asked(view: str) -> None:
 
 design = header.show("tuning")
 open_asked(state.asked_view())
-made, refusal = attempt(lambda: study(design.plant, design.tuning))
-present = made
-if design.source == "own":
-    present, refusal = attempt(lambda: present_study(design))
+with st.spinner("Tuning the loop"):
+    made, refusal = attempt(lambda: study(design.plant, design.tuning))
+    present = made
+    if design.source == "own":
+        present, refusal = attempt(lambda: present_study(design))
 mark(design, "narrow")
 with st.container(key="tuning"):
     controls, view = st.columns([4, 11], gap="medium")

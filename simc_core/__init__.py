@@ -41,6 +41,7 @@ from simc_core.implementation.schedule_table import ScheduleTable
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops
+from simc_core.loops.static_errors import StaticErrors, static_errors
 from simc_core.many.read_list import LoopList, read_list
 from simc_core.many.result import Judged, Result
 from simc_core.many.run import tune_many
@@ -48,6 +49,7 @@ from simc_core.many.tune_rows import tune_chunk, tune_row
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import Performance, performance
 from simc_core.metrics.step_metrics import StepMetrics
+from simc_core.metrics.step_quality import Quality, StepQuality, step_quality
 from simc_core.numbers import read_number, read_numbers
 from simc_core.optimal.robust_region import gain_intervals, robust_region
 from simc_core.optimal.stability_limit import stability_limit
@@ -69,6 +71,7 @@ from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
+from simc_core.sensitivity.bandwidth import Bandwidth, bandwidth
 from simc_core.sensitivity.margins import crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
@@ -83,13 +86,16 @@ __all__ = [
     "BOXES",
     "RULES",
     "Actuation",
+    "Bandwidth",
     "Box",
     "BoxError",
     "BudgetEntry",
+    "ByHand",
     "Candidate",
     "CascadeDesign",
     "CascadeLoop",
     "ClosedLoopPole",
+    "DataError",
     "DoubleIntegratingDelay",
     "EqualRobustness",
     "FirstOrderDelay",
@@ -98,6 +104,7 @@ __all__ = [
     "GainSchedule",
     "IController",
     "IdealPid",
+    "Identified",
     "IntegratingDelay",
     "InvalidParameter",
     "Judged",
@@ -109,6 +116,7 @@ __all__ = [
     "NestedResponse",
     "NestedStability",
     "NoOptimum",
+    "NotIdentifiable",
     "NotReducible",
     "NotStable",
     "Optimum",
@@ -118,7 +126,9 @@ __all__ = [
     "ParseError",
     "Performance",
     "Plant",
+    "Quality",
     "Reduction",
+    "Relay",
     "Result",
     "Rule",
     "RuleEnds",
@@ -128,15 +138,20 @@ __all__ = [
     "SeriesPid",
     "SimcError",
     "Stability",
+    "StaticErrors",
     "Step",
     "StepMetrics",
+    "StepQuality",
     "Sweep",
     "TimeResponse",
+    "Trend",
     "Typed",
     "Ultimate",
     "UnstableDelay",
     "WrongType",
     "at_equal_robustness",
+    "bandwidth",
+    "by_hand",
     "comparison",
     "count_unstable",
     "crossings",
@@ -144,14 +159,18 @@ __all__ = [
     "dominant_poles",
     "export",
     "export_schedule",
+    "find_moves",
     "frequency_response",
     "from_box",
     "gain_intervals",
     "half_rule",
+    "identify",
+    "identify_all",
     "longest_sampling_period",
     "margins",
     "margins_many",
     "margins_of",
+    "ms_of_cloud",
     "optimal",
     "parse_plant",
     "performance",
@@ -159,14 +178,22 @@ __all__ = [
     "read_list",
     "read_number",
     "read_numbers",
+    "read_trend",
+    "relay_from_trend",
+    "relay_test",
+    "retune_oscillation",
     "robust_region",
+    "robust_tau_c",
     "sampled_margins",
+    "setpoint_overshoot",
     "simc",
     "simc_cascade",
     "simulate",
     "stability",
     "stability_limit",
     "stability_many",
+    "static_errors",
+    "step_quality",
     "sweep",
     "synthesis_cascade",
     "tau_c_presets",

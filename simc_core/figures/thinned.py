@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-MOST_DRAWN = 3000  # points of a curve; a screen has fewer columns of pixels, and more make panning slow
+MOST_DRAWN = 2000  # points of a curve; a screen has fewer columns of pixels, and more make panning slow
 
 Array = NDArray[np.float64]
 
@@ -23,16 +23,15 @@ def thinned(t: Array, y: Array, most: int = MOST_DRAWN) -> tuple[Array, Array]:
     Returns
     -------
     t, y : array, shape (m,)
-        All points where there are no more than `most`; else first, last, least and largest of each stretch of time.
+        All points where there are no more than `most`; else the ends, and least and largest of each stretch of time.
     """
     if t.size <= most:
         return t, y
-    edges = np.linspace(0, t.size, most // 4 + 1).astype(np.intp)
-    begins, ends = edges[:-1], edges[1:] - 1
-    low, high = np.empty_like(begins), np.empty_like(begins)
+    edges = np.linspace(0, t.size, most // 2).astype(np.intp)
+    low, high = np.empty_like(edges[:-1]), np.empty_like(edges[:-1])
     for i, (a, b) in enumerate(pairwise(edges.tolist())):
         low[i], high[i] = a + np.argmin(y[a:b]), a + np.argmax(y[a:b])
-    kept = np.unique(np.concatenate([begins, ends, low, high]))
+    kept = np.unique(np.concatenate([[0], low, high, [t.size - 1]]))
     return t[kept], y[kept]
 
 

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 class ByHand:
     """What one graphical method gives.
 
-    Parameters
+    Attributes
     ----------
     method : str
         "two-point", "tangent" or "areas".

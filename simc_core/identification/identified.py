@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 class Identified:
     """A model fitted to a trend.
 
-    Parameters
+    Attributes
     ----------
     structure : str
         Its key, see `identify`.
@@ -39,7 +39,7 @@ class Identified:
     residuals, predicted : array, shape (n,)
         PV less the model, and the model, at the samples; of several trends one after the other.
     fit : float
-        1 - |residuals|/|PV - mean|, at most 1.
+        1 - norm(residuals)/norm(PV - mean), at most 1.
     verdicts : tuple of str
         What to think of it, in words, the most serious first.
     slope : (float, float) or None

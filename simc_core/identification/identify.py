@@ -143,12 +143,12 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
     plant, model = as_model(problem.structure.key, parameters)
     step = resolution_of(trends)
     floor = max(BELIEVED * response_of(trends), step / np.sqrt(12))
-    moves = gains_per_move(found.fit, found.noise, find_moves(trends[0]), floor) if len(trends) == 1 else ()
     own = problem.root_weight > 0
     around = np.concatenate([problem.y[part] - problem.y[part].mean() for part in problem.parts])
     residuals = found.fit.residual
     moved = float(np.linalg.norm(around * own))
     share = 1 - float(np.linalg.norm(residuals * own)) / moved if moved > 0 else 0.0
+    moves = gains_per_move(found.fit, share, find_moves(trends[0]), floor) if len(trends) == 1 else ()
     bias, slope = along(found)
     return Identified(
         structure=problem.structure.key,

@@ -60,6 +60,18 @@ def ms_of_cloud(identified: Identified | Sequence[Identified], tau_c: ArrayLike 
     ------
     InvalidParameter
         A tau_c that is not a positive time, or a model without a SIMC setting.
+
+    Examples
+    --------
+    SIMC with tau_c = theta has Ms = 1.59 on the estimated plant [SK03]:
+
+    >>> import numpy as np
+    >>> from simc_core import Trend, identify, ms_of_cloud
+    >>> t = np.arange(0.0, 60.0)
+    >>> y = 10 * np.where(t > 13.5, 1 - np.exp(-(t - 13.5).clip(0) / 8), 0)
+    >>> found = identify(Trend(t, y, np.where(t >= 10, 55, 50)))
+    >>> round(float(ms_of_cloud(found, [3.5]).Ms[0, 0]), 2)
+    1.59
     """
     found = clouds(identified)
     best = identified if isinstance(identified, Identified) else identified[0]

@@ -194,7 +194,16 @@ def _absolute_integrals(steps: Steps, e: np.ndarray, zeros: LevelCrossings) -> t
 
 
 def _times(steps: Steps, found: LevelCrossings, levels: np.ndarray, right: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Rise time, nan for a load step, and settling time: first and last passages through `levels`.
+    """Rise time, nan for a load step, and settling time, from the passages through `levels`."""
+    first, last = passages(steps, found, levels, right)
+    first[first == np.inf] = 0.0
+    return np.where(steps.target, first[2] - first[1], np.nan), np.maximum(last[3], last[4])
+
+
+def passages(
+    steps: Steps, found: LevelCrossings, levels: np.ndarray, right: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """First and last time that each response passes each of `levels` (k, m): (k, n) both, inf and 0 for never.
 
     right: y at the right ends; where the next piece begins it may jump through a level.
     """
@@ -202,8 +211,8 @@ def _times(steps: Steps, found: LevelCrossings, levels: np.ndarray, right: np.nd
     x = np.concatenate([found.x, np.full(len(level), -1.0)])
     level, piece = np.concatenate([found.level, level]), np.concatenate([found.row, piece])
     times, which = steps.time(piece, x), (level, steps.owner[piece])
-    first, last = np.full((5, len(steps.first)), np.inf), np.zeros((5, len(steps.first)))
+    shape = len(levels), len(steps.first)
+    first, last = np.full(shape, np.inf), np.zeros(shape)
     np.minimum.at(first, which, times)
     np.maximum.at(last, which, times)
-    first[first == np.inf] = 0.0
-    return np.where(steps.target, first[2] - first[1], np.nan), np.maximum(last[3], last[4])
+    return first, last

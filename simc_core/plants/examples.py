@@ -22,7 +22,7 @@ class Example:
     note: str
 
 
-TYPICAL = "typical values"
+TYPICAL = "Typical values."
 
 EVERYDAY = (
     Example(

@@ -22,6 +22,7 @@ import math
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache, partial
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
@@ -33,7 +34,7 @@ from simc_core.reduction.equal_peak import at_equal_peak, compare_orders
 from simc_core.reduction.explanation import budget, notes, steps
 from simc_core.reduction.records import LARGEST_MS, Candidate, Reduction
 from simc_core.reduction.split import TrialReduction, delay_of, model_of, resolved, shape_of
-from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, remove_leads
+from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, Removal, remove_leads
 from simc_core.reduction.zeros_1998 import remove_leads_1998
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
@@ -42,6 +43,8 @@ RULES = ("2003", "1998")
 MOST_PROBES = 400  # of theta; median 18 for two zeros, 100 for six, 240 for a dozen. Beyond this some may be missed
 INSIDE = 0.414  # where an interval is probed; not the middle, where symmetric plants have their changes
 SAME_DELAY = 1e-9  # relative; two delays this close are one
+_Reduced = tuple[tuple[Candidate, ...], TrialReduction]
+_Removed = Callable[[float], tuple[Removal, tuple[float, ...]]]
 
 
 def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003", tau_F: float = 0.0) -> Reduction:
@@ -95,12 +98,14 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003",
     if rules not in RULES:
         raise InvalidParameter(f'rules must be "2003" or "1998", got {rules!r}')
     parts = dynamics(plant)
-    candidates, trial = _reduce(plant, parts, order, late, rules)
+    removed = lru_cache(maxsize=None)(partial(_removed, parts))
+    reduce = partial(_reduce, plant, parts, removed, late, rules)
+    candidates, trial = reduce(order)
     chosen = next(candidate for candidate in candidates if candidate.chosen)
-    other = chosen.model if order == 2 else _chosen(plant, parts, 2, late, rules)
+    other = chosen.model if order == 2 else _chosen(reduce(2))
     orders = None
     if isinstance(other, SecondOrderDelay | IntegratingDelay):
-        first = chosen.model if order == 1 else _chosen(plant, parts, 1, late, rules)
+        first = chosen.model if order == 1 else _chosen(reduce(1))
         orders = compare_orders(plant, first, other)
     return Reduction(
         chosen.model,
@@ -143,22 +148,21 @@ def reduced_model(plant: Plant, order: int = 1) -> Model:
     >>> reduced_model(parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))"))
     FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
     """
-    return _chosen(plant, dynamics(plant), checks.whole("order", order, 1, 2), 0.0, "2003")
+    parts = dynamics(plant)
+    removed = partial(_removed, parts)
+    return _chosen(_reduce(plant, parts, removed, 0.0, "2003", checks.whole("order", order, 1, 2)))
 
 
-def _chosen(plant: Plant, parts: Dynamics, order: int, late: float, rules: str) -> Model:
-    candidates, _ = _reduce(plant, parts, order, late, rules)
-    return next(candidate.model for candidate in candidates if candidate.chosen)
+def _chosen(reduced: _Reduced) -> Model:
+    return next(candidate.model for candidate in reduced[0] if candidate.chosen)
 
 
-def _reduce(
-    plant: Plant, parts: Dynamics, order: int, late: float, rules: str
-) -> tuple[tuple[Candidate, ...], TrialReduction]:
+def _reduce(plant: Plant, parts: Dynamics, removed: _Removed, late: float, rules: str, order: int) -> _Reduced:
     """All candidates, smallest delay first, one of them chosen, and how that one came about."""
     if rules == "1998":
         found = [_at_1998(parts, order, late)]
     else:
-        found = _self_consistent(lambda theta: _at(parts, order, late, theta), _longest_delay(parts, late))
+        found = _self_consistent(lambda theta: _at(parts, removed, order, late, theta), _longest_delay(parts, late))
     models = [model_of(parts, trial) for trial in found]
     candidates = _choose(plant, models)
     chosen = next(i for i, candidate in enumerate(candidates) if candidate.chosen)
@@ -169,13 +173,19 @@ def _longest_delay(parts: Dynamics, late: float) -> float:
     return parts.theta + sum(parts.lags) + sum(parts.inverse) + late / 2
 
 
-def _at(parts: Dynamics, order: int, late: float, theta: float) -> TrialReduction:
-    """The rules of 2003 with `theta` assumed; the line `theta` of the outcome is what comes out."""
+def _removed(parts: Dynamics, theta: float) -> tuple[Removal, tuple[float, ...]]:
+    """The rules of 2003 for zeros with `theta` assumed, for either order; and the theta at which they change."""
     comparisons = Comparisons(theta)
     lags = [Lag(i, LineInTheta(tau)) for i, tau in enumerate(parts.lags)]
     removal = remove_leads(list(enumerate(parts.leads)), lags, parts.integrators, comparisons)
+    return removal, tuple(set(comparisons.turning_points))
+
+
+def _at(parts: Dynamics, removed: _Removed, order: int, late: float, theta: float) -> TrialReduction:
+    """The rules of 2003 with `theta` assumed; the line `theta` of the outcome is what comes out."""
+    removal, turning_points = removed(theta)
     shape = shape_of(parts, order, removal.integrators)
-    return TrialReduction(removal, shape, delay_of(parts, removal.lags, shape, late), tuple(comparisons.turning_points))
+    return TrialReduction(removal, shape, delay_of(parts, removal.lags, shape, late), turning_points)
 
 
 def _at_1998(parts: Dynamics, order: int, late: float) -> TrialReduction:

@@ -69,10 +69,11 @@ class Comparisons:
 
     def at_least(self, a: LineInTheta, b: LineInTheta) -> bool:
         """a >= b at this theta, equality within the guard included."""
-        slope = a.slope - b.slope
-        if slope:
-            self.turning_points.append((b.at - a.at) / slope)
-        left, right = a(self.theta), b(self.theta)
+        (left, rise), (right, other_rise) = a, b
+        if rise or other_rise:
+            if rise != other_rise:
+                self.turning_points.append((right - left) / (rise - other_rise))
+            left, right = a(self.theta), b(self.theta)
         return left >= right or math.isclose(left, right, rel_tol=GUARD)
 
     def closer(self, T0: float, below: LineInTheta, above: LineInTheta) -> bool:

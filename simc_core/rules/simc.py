@@ -181,7 +181,8 @@ def _stable(k: float, tau1: float, tau2: float, q: float) -> SeriesPid | IContro
 def _oscillating(model: OscillatingDelay, q: float) -> IdealPid:
     if model.zeta == 0:
         raise InvalidParameter(
-            "zeta must be > 0 for the SIMC rule, got 0: it cancels the poles, and undamped ones would ring for ever"
+            "zeta must be > 0 for the SIMC rule, got 0: it cancels the poles, and undamped ones would ring for ever; "
+            "damp them by an inner loop first (cascade)"
         )
     twice = 2 * model.zeta
     return IdealPid(twice * model.tau0 / (model.k * q), twice * model.tau0, model.tau0 / twice)

@@ -3,7 +3,8 @@
 import re
 
 from simc_core.plants.models import Model, UnstableDelay
-from simc_core.rules.simc import default_tau_c, tau_c_presets
+from simc_core.rules.simc import default_tau_c
+from simc_core.rules.simc_family import presets_of, usual_tau_c
 
 TIMES_THETA = re.compile(r"(\d{1,4}(?:\.\d{1,6})?)theta")
 LEAST, MOST = 0.01, 1000.0  # times theta
@@ -22,7 +23,7 @@ def is_speed(speed: str) -> bool:
     return not speed or speed in WORDS or times_theta(speed) is not None
 
 
-def tau_c_in_use(model: Model, tau_c: float | None, speed: str) -> float:
+def tau_c_in_use(model: Model, tau_c: float | None, speed: str, rule: str = "simc") -> float:
     """tau_c as a number, if there is one, else as the choice; the rule of an unstable pole knows theta alone."""
     if isinstance(model, UnstableDelay):
         return default_tau_c(model)
@@ -31,4 +32,4 @@ def tau_c_in_use(model: Model, tau_c: float | None, speed: str) -> float:
     multiple = times_theta(speed)
     if multiple and model.theta:
         return multiple * model.theta
-    return tau_c_presets(model).get(speed, default_tau_c(model))
+    return presets_of(rule, model).get(speed, usual_tau_c(rule, model))

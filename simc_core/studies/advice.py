@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
-from simc_core.errors import FormError, NotReducible
+from simc_core.errors import FormError, NotReducible, SimcError
+from simc_core.metrics.performance import performance
 from simc_core.notation import number
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
@@ -27,7 +28,7 @@ from simc_core.reduction.explanation import of_orders
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.bands import exceeds
-from simc_core.studies.remedies import TIGHT, calmer, filter_that_costs_little
+from simc_core.studies.remedies import FILTERS, calmer, filter_that_costs_little, tight
 from simc_core.studies.tuned import Tuned
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
@@ -35,6 +36,8 @@ SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
 SLOW_INTEGRATING = 8.0  # tau_c/theta of the "moderate" choice [V06 eq. 7]; an integrating plant has no time of its own
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4
 LIMIT_ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
+LARGE_OVERSHOOT = 0.2  # of a set-point step
+WEIGHTS = (0.7, 0.5, 0.3, 0.2, 0.0)  # set-point weights that are tried
 LEVELS = ("error", "warning", "note")
 BY_MODEL = {
     DoubleIntegratingDelay: "Two integrators need derivative action: the rule for this plant is a PID.",
@@ -102,18 +105,19 @@ def large_Ms(of: Tuned) -> Advice | None:
 
 
 def faster_than_dead_time(of: Tuned) -> Advice | None:
-    """tau_c < theta, where it costs robustness."""
-    theta, tau_c = of.model.theta, of.tau_c
-    if tau_c >= theta * (1 - LIMIT_ROUNDING) or not of.margins.stable:
+    """tau_c shorter than the rule has it, where that costs robustness."""
+    usual, tau_c, change = of.usual_tau_c, of.tau_c, tight(of)
+    if not of.model.theta or tau_c >= usual * (1 - LIMIT_ROUNDING) or not of.margins.stable:
         return None
-    tight = of.at(theta)
-    if not tight.margins.Ms < of.margins.Ms:
+    calm = of.at(usual).margins.Ms
+    if not calm < of.margins.Ms:
         return None
+    name = "theta/2" if of.rule == "isimc" else "theta"
     text = (
-        f"This is faster than the tight setting tau_c = theta. Ms is {number(of.margins.Ms, 3)}, "
-        f"with tau_c = theta it is {number(tight.margins.Ms, 3)}."
+        f"This is faster than the tight setting tau_c = {name}. Ms is {number(of.margins.Ms, 3)}, "
+        f"with tau_c = {name} it is {number(calm, 3)}."
     )
-    return Advice("note", "tau_c", text, tau_c, theta, True, "Take tau_c = theta.", TIGHT)
+    return Advice("note", "tau_c", text, tau_c, usual, True, f"Take tau_c = {name}.", change)
 
 
 def slower_than_plant(of: Tuned) -> Advice | None:
@@ -156,12 +160,16 @@ def derivative_noise(of: Tuned) -> Advice | None:
         times = f", {number(gain / abs(form.Kp), 3)} times Kp" if form.Kp else ""
         text = f"Fast measurement noise reaches the input with this gain{times}. A larger tau_F lowers it."
         return Advice("note", "High-frequency gain Kd/tau_F", text, gain)
+    text = "The derivative has no filter: measurement noise passes without limit."
     change, Ms = filter_that_costs_little(of)
+    if not change:
+        way = "damp the plant by an inner loop" if isinstance(of.model, OscillatingDelay) else "do without D"
+        remedy = f"A filter of {number(FILTERS[-1])} tau_D already makes the loop fragile: {way}."
+        return Advice("warning", "tau_F = 0", text, remedy=remedy)
     assert isinstance(of.controller, SeriesPid | IdealPid)  # SIMC with derivative action
     tau_F = change["filter"] * of.controller.tau_D
     remedy = f"Set tau_F/tau_D = {number(change['filter'])}, tau_F = {number(tau_F, 3)}"
     remedy += f": Ms becomes {number(Ms, 3)}." if math.isfinite(Ms) else "."
-    text = "The derivative has no filter: measurement noise passes without limit."
     return Advice("warning", "tau_F = 0", text, remedy=remedy, change=change)
 
 
@@ -179,7 +187,7 @@ def oscillating_plant(of: Tuned) -> Advice | None:
 def order_two(of: Tuned) -> Advice | None:
     """Whether derivative action pays, by the load errors at equal Ms."""
     orders = of.reduction.orders
-    if orders is None or math.isnan(orders.ratio):
+    if orders is None or math.isnan(orders.ratio) or of.rule != "simc":
         return None
     derivative = delivered(of.controller) == "PID"
     if orders.second_pays and of.order == 1:
@@ -192,7 +200,7 @@ def order_two(of: Tuned) -> Advice | None:
 def other_than_chosen(of: Tuned) -> Advice | None:
     """PI chosen and PID delivered, or the reverse."""
     chosen, got = ("PI", "PID")[of.order - 1], delivered(of.controller)
-    if chosen == got:
+    if chosen == got or of.rule != "simc":
         return None
     quantity = f"{chosen} chosen, {got} delivered"
     if got == "I":
@@ -204,6 +212,31 @@ def other_than_chosen(of: Tuned) -> Advice | None:
     return Advice("note", quantity, text, remedy="Choose PI.", change={"order": 1})
 
 
+def set_point_overshoot(of: Tuned) -> Advice | None:
+    """The overshoot that integral action behind an integrator must have, and the set-point weight that takes it off."""
+    if not of.plant.integrators or of.choices["b"] != 1 or not of.margins.stable:
+        return None
+    now = _overshoot(of)
+    if not now > LARGE_OVERSHOOT:
+        return None
+    for b in WEIGHTS:
+        less = _overshoot(of.changed(b=b))
+        if less <= LARGE_OVERSHOOT / 2:
+            break
+    else:
+        return None
+    text = "Behind an integrator, integral action with b = 1 overshoots after a step of the set point at any speed."
+    remedy = f"Take b = {number(b)}: {number(100 * less, 3)} %, and margins and the load response stay."
+    return Advice("note", "Overshoot [%]", text, 100 * now, 100 * LARGE_OVERSHOOT, remedy=remedy, change={"b": b})
+
+
+def _overshoot(of: Tuned) -> float:
+    try:
+        return performance(of.loop).setpoint.overshoot
+    except SimcError:
+        return math.nan
+
+
 GUARDS: tuple[Callable[[Tuned], Advice | None], ...] = (
     not_stable,
     large_Ms,
@@ -213,6 +246,7 @@ GUARDS: tuple[Callable[[Tuned], Advice | None], ...] = (
     order_two,
     other_than_chosen,
     oscillating_plant,
+    set_point_overshoot,
 )
 
 
@@ -268,7 +302,7 @@ def in_words(change: dict[str, Any]) -> str:
         said.append("tau_c = " + ("theta" if change["tau_c"] is None else number(change["tau_c"], 4)))
     if "filter" in change:
         said.append(f"tau_F/tau_D = {number(change['filter'])}")
-    said += [f"{name} = {number(change[name], 4)}" for name in ("h", "r", "d", "Kc") if name in change]
+    said += [f"{name} = {number(change[name], 4)}" for name in ("h", "r", "d", "b", "Kc") if name in change]
     return "Take " + " with ".join(said)
 
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,20 +9,19 @@ from scipy.interpolate import PchipInterpolator
 
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller
-from simc_core.errors import NoOptimum, SimcError
+from simc_core.errors import InvalidParameter, SimcError
 from simc_core.loops.loop import Loop
 from simc_core.metrics.performance import performance
-from simc_core.optimal.criterion import J, References
+from simc_core.optimal.criterion import CRITERIA, J, References
 from simc_core.optimal.robust_gains import peak_bound
-from simc_core.optimal.under_ms import Optimum, Search, references
+from simc_core.optimal.under_ms import Search, references
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.rules.catalogue import RULES
 from simc_core.studies.equal_robustness import HIGHEST, at_equal_robustness, detunable, filtered, peaks
-from simc_core.studies.optimum import FILTER, scale_of, search_for, trade_off
+from simc_core.studies.optimum import FILTER, front, scale_of, search_for
 from simc_core.studies.tune import rule_of, subject_of
 
-COMPARED = np.geomspace(1.15, 5, 14).tolist()  # bounds of the front that published rules are compared with
 EQUAL_PEAKS = 1e-5  # logarithms of peaks that are one
 NEAR_OPTIMUM = 0.03  # behind the optimum: rules so near are compared with one of their own peak, not with the front
 
@@ -36,7 +34,7 @@ class Row:
     why.   published_Ms, factor: as in EqualRobustness.   Mst: max(Ms, Mt).   load, setpoint: IAE of unit steps at the
     input and at the output.   J: [SG12], nan where there is no reference.   TV: of u after a load step.
     high_frequency_gain: |C| there, Kd/tau_F, or Kp without derivative action.
-    behind: load over that of the optimum with the same bound, minus 1.
+    behind: the criterion over that of the optimum with the same bound, minus 1.
     in_domain: whether the source recommends it here.
     """
 
@@ -62,6 +60,7 @@ def comparison(
     Ms: float | None = None,
     tau_F: float | None = None,
     keys: Sequence[str] = tuple(RULES),
+    criterion: str = "load",
 ) -> Iterator[Row]:
     """Every rule on one plant, row by row as they are computed; the optimum of each kind comes first.
 
@@ -77,6 +76,8 @@ def comparison(
         Filter of all controllers with derivative action, in the user's time unit. None: 0.1 theta.
     keys : sequence of str
         Names in RULES.
+    criterion : str
+        What the optimum is best for: "load", "setpoint" or "J", as in `optimal`.
 
     Returns
     -------
@@ -100,26 +101,25 @@ def comparison(
     M = None if Ms is None else peak_bound("Ms", Ms)
     for key in keys:
         rule_of(key)
-    return _rows(plant, kinds, M, tau_F, keys)
+    if criterion not in CRITERIA:
+        raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, got {criterion!r}")
+    return _rows(_Judge(plant, M, FILTER * scale_of(plant) if tau_F is None else tau_F, criterion), kinds, keys)
 
 
-def _rows(
-    plant: Plant, kinds: Sequence[str], M: float | None, tau_F: float | None, keys: Sequence[str]
-) -> Iterator[Row]:
-    judge = _Judge(plant, M, FILTER * scale_of(plant) if tau_F is None else tau_F)
+def _rows(judge: "_Judge", kinds: Sequence[str], keys: Sequence[str]) -> Iterator[Row]:
     for kind in kinds:
-        if M is not None:
-            yield judge.best(kind, M)
+        if judge.M is not None:
+            yield judge.best(kind, judge.M)
         for key in keys:
             if kind in RULES[key].kinds:
                 yield judge.rule(key, kind)
 
 
 class _Judge:
-    """One plant, one bound, one filter."""
+    """One plant, one bound, one filter, one criterion."""
 
-    def __init__(self, plant: Plant, M: float | None, tau_F: float):
-        self.plant, self.M, self.tau_F = plant, M, tau_F
+    def __init__(self, plant: Plant, M: float | None, tau_F: float, criterion: str):
+        self.plant, self.M, self.tau_F, self.criterion = plant, M, tau_F, criterion
         self.references = self._references()
         self.fronts: dict[str, np.ndarray] = {}
 
@@ -155,7 +155,8 @@ class _Judge:
             return replace(_none(key, kind, published, "the loop is not stable"), controller=controller)
         both = performance(loop)
         load, setpoint = both.disturbance.IAE, both.setpoint.IAE
-        behind = self._behind(kind, Mst, load)
+        combined = float(J(self.references, setpoint, load)) if self.references else math.nan
+        value = {"load": load, "setpoint": setpoint, "J": combined}[self.criterion]
         return Row(
             key,
             kind,
@@ -165,39 +166,45 @@ class _Judge:
             Mst,
             load,
             setpoint,
-            float(J(self.references, setpoint, load)) if self.references else math.nan,
+            combined,
             both.disturbance.TV,
             high_frequency_gain(controller),
-            behind,
+            self._behind(kind, Mst, value),
             honoured,
         )
 
-    def _behind(self, kind: str, Mst: float, load: float) -> float:
-        """Relative distance of the load error to that of the best controller with the same peak."""
+    def _behind(self, kind: str, Mst: float, value: float) -> float:
+        """Relative distance of the criterion to that of the best controller with the same peak."""
         x, y = self._front(kind)
         log_Mst = math.log(Mst)
         if not len(x) or not x[0] - EQUAL_PEAKS <= log_Mst <= x[-1] + EQUAL_PEAKS:
             return math.nan
         if len(x) == 1:
-            return load / math.exp(y[0]) - 1
-        behind = load / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1
+            return value / math.exp(y[0]) - 1
+        behind = value / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1
         if behind < NEAR_OPTIMUM:
-            behind = load / self._search(kind).best(Mst)[0].value - 1
+            behind = value / self._search(kind).best(Mst)[0].value - 1
         return behind
 
     def _front(self, kind: str) -> np.ndarray:
-        """Logarithms of bounds and of the least load errors."""
+        """Logarithms of bounds and of the least values of the criterion."""
         if kind not in self.fronts:
-            bounds: list[float] = COMPARED if self.M is None else [self.M]
-            front: tuple[Optimum, ...] = ()
-            with suppress(NoOptimum):
-                front = trade_off(self.plant, kind, "load", bounds, self.tau_F if kind == "PID" else None)
-            values = [each.value for each in front]
-            self.fronts[kind] = np.log([bounds[len(bounds) - len(values) :], values])
+            self.fronts[kind] = np.log(self._least(kind)).T.reshape(2, -1)
         return self.fronts[kind]
 
+    def _least(self, kind: str) -> list[tuple[float, float]]:
+        try:
+            if self.M is not None:
+                return [(self.M, self._search(kind).best(self.M)[0].value)]
+            return [(M, each.value) for M, each in front(self.plant, kind, self.criterion, self._filter(kind))]
+        except SimcError:
+            return []
+
     def _search(self, kind: str) -> Search:
-        return search_for(self.plant, kind, "load", self.tau_F if kind == "PID" else None, False)
+        return search_for(self.plant, kind, self.criterion, self._filter(kind), False)
+
+    def _filter(self, kind: str) -> float | None:
+        return self.tau_F if kind == "PID" else None
 
     def _recommended(self, key: str, kind: str) -> bool:
         rule = RULES[key]

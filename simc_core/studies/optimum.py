@@ -1,6 +1,7 @@
 """The optimum of a plant, and the whole trade-off between performance and robustness."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from simc_core.rules.simc import default_tau_c, simc
 
 FILTER = 0.1  # tau_F of a PID controller, in units of the effective dead time
 MOST_BOUNDS = 200  # of a front
+COMPARED = tuple(np.geomspace(1.15, 5, 14).tolist())  # bounds of the front that rules are compared with
 BOUNDS = tuple(np.round(np.geomspace(1.2, 2.5, 20), 4).tolist())
 
 
@@ -134,6 +136,13 @@ def trade_off(
             break
         found.append(best)
     return tuple(reversed(found))
+
+
+@lru_cache(maxsize=32)
+def front(plant: Plant, kind: str, criterion: str, tau_F: float | None) -> tuple[tuple[float, Optimum], ...]:
+    """The front that rules are compared with: bound and optimum, ascending. Raises as `trade_off` does."""
+    found = trade_off(plant, kind, criterion, COMPARED, tau_F)
+    return tuple(zip(COMPARED[len(COMPARED) - len(found) :], found, strict=True))
 
 
 def search_for(plant: Plant, kind: str, criterion: str, tau_F: float | None, series: bool) -> Search:

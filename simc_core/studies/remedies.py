@@ -31,33 +31,48 @@ def calmer(of: Tuned) -> tuple[Change, str]:
 
 
 def filter_that_costs_little(of: Tuned) -> tuple[Change, float]:
-    """The largest tau_F/tau_D of FILTERS that raises Ms by 10 % at most and not across 2, else the smallest; its Ms."""
+    """The largest tau_F/tau_D of FILTERS that raises Ms by 10 % at most and not across 2, else the smallest; its Ms.
+
+    {} where the smallest one makes the loop fragile that was not.
+    """
     now = of.margins.Ms
     allowed = HARDLY * now if now > LARGEST_MS else min(HARDLY * now, LARGEST_MS)
     change, Ms = {"filter": FILTERS[-1]}, math.nan
     for ratio in FILTERS:
         change, Ms = {"filter": ratio}, of.changed(filter=ratio).margins.Ms
         if Ms <= allowed:
-            break
-    return change, Ms
+            return change, Ms
+    return ({}, Ms) if math.isfinite(now) and not Ms <= max(LARGEST_MS, HARDLY * now) else (change, Ms)
 
 
 def _trials(of: Tuned) -> Iterator[tuple[Change, float]]:
     """Changes in the order in which they are proposed, with Ms of a stable loop."""
     if not isinstance(of.model, UnstableDelay):
-        if of.tau_c < of.model.theta:
-            yield from _judged(of, TIGHT)
+        shortest = of.usual_tau_c if of.model.theta else 0.0
+        if of.tau_c < shortest:
+            yield from _judged(of, tight(of))
         for factor in SLOWER:
-            yield from _judged(of, {"tau_c": rounded_up(factor * max(of.tau_c, of.model.theta))})
+            yield from _judged(of, {"tau_c": rounded_up(factor * max(of.tau_c, shortest))})
+    yield from _of_other_order(of)
+    for ratio in FILTERS:
+        if ratio < of.choices["filter"]:
+            yield from _judged(of, {"filter": ratio})
+
+
+def tight(of: Tuned) -> Change:
+    """tau_c as the rule has it where none is given."""
+    return TIGHT if of.rule != "isimc" else {"tau_c": of.usual_tau_c}
+
+
+def _of_other_order(of: Tuned) -> Iterator[tuple[Change, float]]:
+    if of.rule != "simc":  # which has one kind of controller
+        return
     other = 3 - of.order
     orders = of.reduction.orders
     if orders is None or orders.second_pays == (other == 2):  # never against what is said about the orders
         yield from _judged(of, {"order": other})
         if not isinstance(of.model, UnstableDelay):
             yield from _judged(of, {"order": other, **TIGHT})
-    for ratio in FILTERS:
-        if ratio < of.choices["filter"]:
-            yield from _judged(of, {"filter": ratio})
 
 
 def _judged(of: Tuned, change: Change) -> Iterator[tuple[Change, float]]:

@@ -21,7 +21,7 @@ from simc_core.metrics.performance import both_steps
 from simc_core.metrics.step_metrics import measures
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
-from simc_core.rules.simc import simc
+from simc_core.rules.simc_family import settings_of
 from simc_core.sensitivity.margins import margins_many
 from simc_core.simulation.one_delay.limits import MOST_OF_ALL, share, too_much
 from simc_core.simulation.one_delay.march import march
@@ -94,6 +94,7 @@ def sweep(
     filter_ratio: float = 0.0,
     disturbance_time: float = 0.0,
     ramps: tuple[float, float] = (0.0, 0.0),
+    rule: str = "simc",
 ) -> Sweep:
     """SIMC tunings of `model` for many tau_c at once, each in the loop round `plant`.
 
@@ -117,6 +118,8 @@ def sweep(
         When the load begins.
     ramps : tuple of float
         Times in which set point and load reach their heights, 0 for steps. Metrics are those of steps in any case.
+    rule : str
+        "simc", "improved_simc" or "isimc".
 
     Returns
     -------
@@ -126,7 +129,7 @@ def sweep(
     Raises
     ------
     InvalidParameter
-        Where `simc` does, and where `simulate` does for one of the loops.
+        Where the rule does, and where `simulate` does for one of the loops.
 
     Examples
     --------
@@ -143,7 +146,9 @@ def sweep(
         raise InvalidParameter(
             f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, got {values}"
         )
-    controllers = tuple(simc(model, each).with_filter(filter_ratio).with_weight(b) for each in speeds.tolist())
+    controllers = tuple(
+        settings_of(rule, model, each).with_filter(filter_ratio).with_weight(b) for each in speeds.tolist()
+    )
     loops = [Loop(plant, controller) for controller in controllers]
     found = margins_many(loops)
     stable = [each.stable for each in found]

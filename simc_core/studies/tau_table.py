@@ -16,7 +16,8 @@ from itertools import pairwise
 import numpy as np
 
 from simc_core.errors import InvalidParameter
-from simc_core.plants.models import FirstOrderDelay, Model, SecondOrderDelay
+from simc_core.plants.models import Model
+from simc_core.rules.simc_family import lag_of
 
 PER_DECADE = 14
 STENCIL = 4
@@ -51,13 +52,10 @@ def first_rows(low: float, high: float, kinks: Sequence[float], per_decade: int 
     return Rows(x, tuple(int(at) for at in np.searchsorted(x, edges)))
 
 
-def kinks(model: Model) -> list[float]:
-    """tau_c > 0 at which the SIMC settings of `model` change branch: 4 (tau_c + theta) = tau1."""
-    match model:
-        case FirstOrderDelay() | SecondOrderDelay():
-            tau_c = model.tau1 / 4 - model.theta
-            return [tau_c] if tau_c > 0 else []
-    return []
+def kinks(model: Model, rule: str = "simc") -> list[float]:
+    """tau_c > 0 at which the settings of `model` change branch: 4 (tau_c + theta) = tau1, or the lag of the rule."""
+    tau_c = lag_of(rule, model) / 4 - model.theta
+    return [tau_c] if tau_c > 0 else []
 
 
 def stencil(rows: Rows, x: float) -> tuple[int, np.ndarray]:

@@ -5,14 +5,15 @@ from functools import lru_cache
 from typing import Any
 
 from simc_core.controllers.forms import Controller
-from simc_core.errors import InvalidParameter, RuleEnds, SimcError
+from simc_core.errors import InvalidParameter, OutOfDomain, RuleEnds, SimcError
 from simc_core.loops.loop import Loop
 from simc_core.notation import number
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Reduction
-from simc_core.rules.simc import A_THETA_LIMIT, simc
+from simc_core.rules.simc import A_THETA_LIMIT
+from simc_core.rules.simc_family import settings_of, usual_tau_c
 from simc_core.rules.speed import tau_c_in_use
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
@@ -36,6 +37,16 @@ class Tuned:
     def order(self) -> int:
         """Order asked of the model."""
         return self.choices["order"]
+
+    @property
+    def rule(self) -> str:
+        """Which of SIMC and its later forms."""
+        return self.choices["rule"]
+
+    @property
+    def usual_tau_c(self) -> float:
+        """tau_c that the rule takes where none is given."""
+        return usual_tau_c(self.rule, self.model)
 
     @property
     def model(self) -> Model:
@@ -66,6 +77,7 @@ def tuned(
     rules: str = "2003",
     speed: str = "",
     tau_F: float = 0.0,
+    rule: str = "simc",
 ) -> Tuned:
     """Reduce, tune, close the loop, judge it.
 
@@ -82,7 +94,9 @@ def tuned(
     filter : float
         tau_F/tau_D, 0 for no filter.
     speed : str
-        tau_c as a choice that follows the model, "1.5theta" or "moderate"; "" for theta.
+        tau_c as a choice that follows the model, "1.5theta" or "moderate"; "" for the rule's own.
+    rule : str
+        "simc", or "improved_simc" or "isimc", which take the first-order model whatever the order.
 
     Raises
     ------
@@ -93,9 +107,12 @@ def tuned(
     """
     choices = {"order": order, "h": h, "tau_c": tau_c, "b": b, "filter": filter, "rules": rules, "speed": speed}
     choices["tau_F"] = tau_F
-    reduction = _reduced(plant, order, h, rules, tau_F)
+    choices["rule"] = rule
+    reduction = reduced(plant, order if rule == "simc" else 1, h, rules, tau_F)
     try:
         return _closed(plant, choices, reduction)
+    except OutOfDomain as error:
+        raise RuleEnds(f"{error}; take SIMC itself", {"rule": "simc"}) from error
     except InvalidParameter as error:
         if isinstance(reduction.model, UnstableDelay):
             raise _no_setting(plant, choices, reduction.model, str(error)) from error
@@ -104,8 +121,10 @@ def tuned(
 
 def _closed(plant: Plant, choices: dict[str, Any], reduction: Reduction) -> Tuned:
     model = reduction.model
-    tau_c = tau_c_in_use(model, choices["tau_c"], choices["speed"])
-    loop = Loop(plant, simc(model, tau_c).with_filter(choices["filter"]).with_weight(choices["b"]))
+    tau_c = tau_c_in_use(model, choices["tau_c"], choices["speed"], choices["rule"])
+    loop = Loop(
+        plant, settings_of(choices["rule"], model, tau_c).with_filter(choices["filter"]).with_weight(choices["b"])
+    )
     return Tuned(plant, choices, reduction, tau_c, loop, margins(loop))
 
 
@@ -139,6 +158,7 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
     return RuleEnds(f"{why}take PID (order 2): {values}, Ms = {number(other.margins.Ms, 4)}", {"order": 2})
 
 
-@lru_cache(maxsize=16)  # 2 s for a plant of forty poles, and every remedy that is tried asks for the same
-def _reduced(plant: Plant, order: int, h: float, rules: str, tau_F: float) -> Reduction:
+@lru_cache(maxsize=16)  # a second for a plant of forty poles, and every remedy that is tried asks for the same
+def reduced(plant: Plant, order: int, h: float, rules: str, tau_F: float) -> Reduction:
+    """`half_rule`, kept."""
     return half_rule(plant, order, h, rules, tau_F)

@@ -51,4 +51,4 @@ def test_a_day_of_samples_is_drawn_with_few_points(server, open_page):
     page.locator(".st-key-figure_trend .js-plotly-plot .scatterlayer").first.wait_for()
     drawn = page.locator(".st-key-figure_trend .js-plotly-plot")
     points = drawn.evaluate("figure => Math.max(...figure.calcdata.map(trace => trace.length))")
-    assert 1000 < points <= 3000
+    assert 1000 < points <= 2000

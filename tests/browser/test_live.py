@@ -1,5 +1,6 @@
 """The instrument: it follows the hand without asking the server, and exact numbers replace the read ones on release."""
 
+import math
 import re
 from xml.etree import ElementTree
 
@@ -81,6 +82,49 @@ def test_a_drag_redraws_without_the_server_and_its_release_asks_once(server, ope
     idle(page)
     multiple = re.search("speed=([0-9.]+)theta", page.url)  # theta of the model is 7
     assert float(multiple[1]) * 7 == pytest.approx(tau_c(page), rel=1e-3)
+
+
+def test_while_a_knob_moves_no_other_settings_are_shown_or_can_be_copied(server, open_page):
+    """SIMC of [V06] example 1 beside the moving slider; both the same again when it has come to rest."""
+    page = opened(open_page, server)
+    beside, copied = page.locator(".st-key-decided .settings"), page.locator(".st-key-settings_text")
+    expect(beside).to_be_visible()
+    page.get_by_role("button", name="Sweep").click()
+    page.wait_for_timeout(500)
+    expect(beside).to_be_hidden()
+    expect(copied).to_be_hidden()
+    page.get_by_role("button", name="Sweep").click()
+    expect(beside).to_be_visible()
+    box = track(page)
+    page.mouse.move(box["x"] + box["width"] * 0.7, box["y"] + 13)
+    page.mouse.down()
+    expect(beside).to_be_hidden()
+    page.mouse.up()
+    at_rest(page)
+    idle(page)
+    expect(copied).to_be_visible()
+    strip = page.locator(".live .top .settings").inner_text()
+    assert beside.locator("b").first.inner_text() in strip
+
+
+def circle(page: Page) -> float:
+    """Width of an Ms circle as drawn over its height."""
+    with page.expect_download() as download:
+        page.get_by_role("button", name="SVG").click()
+    for path in ElementTree.parse(download.value.path()).iter("{http://www.w3.org/2000/svg}path"):
+        points = [tuple(map(float, pair)) for pair in re.findall(r"(-?[\d.]+)[ ,](-?[\d.]+)", path.get("d"))]
+        if len(points) > 30 and math.dist(points[0], points[-1]) < 1:
+            x, y = zip(*points, strict=True)
+            return (max(x) - min(x)) / (max(y) - min(y))
+    raise AssertionError("no circle is drawn")
+
+
+def test_the_nyquist_panel_stays_one_to_one_when_the_window_changes(server, open_page):
+    page = opened(open_page, server)
+    for width, height in ((1280, 1200), (1000, 700), (1900, 1000)):
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_timeout(800)
+        assert circle(page) == pytest.approx(1, rel=0.03), (width, height)
 
 
 def test_the_released_number_is_the_exact_one(server, open_page):

@@ -38,7 +38,7 @@ VIOLATIONS = """document.addEventListener('securitypolicyviolation', event => {
 });"""
 # On a deep link Streamlit first looks for itself below the page's own path, and finds itself one level up.
 PROBE = re.compile(r"/\w+/_stcore/(health|host-config)$")
-PATIENCE = 30  # seconds for a server to start on a busy machine
+PATIENCE = 60  # seconds, on a busy machine, until a server has started, a page has run, a condition holds
 
 
 class Server:

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from simc_core import (
@@ -177,6 +177,7 @@ def controllers(kind):
 
 @pytest.mark.parametrize("kind", ["PI", "PID"])
 @pytest.mark.parametrize("key", BOXES)
+@settings(max_examples=25)  # of each box and structure: 72 times
 @given(data=st.data(), unit=st.sampled_from(["s", "min"]), pv=st.floats(50, 200), out=st.floats(50, 200))
 def test_what_is_read_back_from_a_box_is_the_design(key, kind, data, unit, pv, out):
     box, design = BOXES[key], data.draw(controllers(kind))

@@ -122,6 +122,7 @@ def test_a_limit_beyond_where_OP_is_now_is_refused_on_that_scale():
 
 def test_the_range_of_the_loop_sheet_is_one_click():
     app = site()
+    assert app.button("range_of_OP").label == "Limits as in the loop sheet: OP 0 to 100 [%]"
     app.button("range_of_OP").click().run()
     assert (address(app)["u_min"], address(app)["u_max"]) == ("-45", "55")
     assert "range_of_OP" not in [button.key for button in app.button]

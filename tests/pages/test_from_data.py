@@ -295,3 +295,12 @@ def test_what_is_typed_into_an_experiment_stays():
     app = experiment(run_page("from_data"), "Relay test", experiment_relay_amplitude="-1")
     assert app.error or "Still needed" in texts(app)
     assert app.text_input(key="experiment_relay_amplitude").value == "-1"
+
+
+def test_every_page_tells_where_an_identified_plant_comes_from():
+    plant = FirstOrderDelay(2.0, 12.0, 60.0).plant
+    origin = Origin(plant, "FOPDT", (0.1, 1.2, 3.0), 0.97, 500, "a*b*.csv")
+    link = links.encode(replace(Design(), plant=plant, origin=origin))
+    for page in ("plant", "tuning"):
+        told = [item.proto.help for item in run_page(page, **link).caption if item.proto.help]
+        assert any("`a*b*.csv`" in text and "fit 97.0 %, 500 samples" in text and "θ 1.2" in text for text in told)

@@ -153,6 +153,7 @@ def test_a_project_file_is_opened_and_a_wrong_one_changes_nothing():
     assert address(app) == {"plant": "2/(5 s + 1)", "order": "1", "b": "0.5"}
     upload(app, "right.json", wanted)
     assert not app.error
+    assert "Opened: `right.json`" in texts(app)
     assert address(app) == {"plant": "7 exp(-s)/(9 s + 1)", "order": "2", "tau_c": "3"}
     assert app.text_input("plant_text_text").value == "7 exp(-s)/(9 s + 1)"
 

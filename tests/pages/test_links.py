@@ -191,7 +191,7 @@ def test_the_address_of_the_default_is_short():
         ("unit", "fortnight", "s, min, h, ms"),
         ("tag", "T" * 41, "40 characters"),
         ("PV_low", "a lot", "number"),
-        ("pins", "1~2", "8 values"),
+        ("pins", "1~2", "9 values"),
         ("pins", "!".join(["1~0~2~1~0~2003"] * 5), "at most 4"),
         ("Ms_inner", "0.5", ">= 1.05"),
         ("u_min", "0.5", "u_min must be <= 0"),

@@ -47,9 +47,9 @@ def made(plant: Plant, tuning: Tuning = Tuning()):  # noqa: B008
     return present, subject, grid, table.table(subject, grid, [("A", present)], "name")
 
 
-def worst_error(plant: Plant, order: int, rng, excitation: Excitation = Excitation()) -> float:  # noqa: B008
+def worst_error(plant: Plant, order: int, rng, excitation: Excitation = Excitation(), rule: str = "simc") -> float:  # noqa: B008
     """Largest error of y, u, |S| and |T| over their ranges, at six tau_c, half of them in the fastest decade."""
-    present = study(plant, Tuning(order=order))
+    present = study(plant, Tuning(order=order, rule=rule))
     subject = table.subject_of(plant, present, "series")
     grid = table.grid_of(subject, present, excitation)
     rows, found = table.rows(subject, grid)
@@ -82,6 +82,20 @@ def test_curves_of_other_heights_and_of_ramps_are_as_right(asked):
     rng = np.random.default_rng(SEED)
     for plant in (Plant(0.05, 2.0, integrators=1), Plant(-2.0, 1.0, (10.0, 3.0))):
         assert worst_error(plant, 1, rng, asked) <= WORST
+
+
+@pytest.mark.parametrize("rule", ["improved_simc", "isimc"])
+def test_curves_of_later_forms_of_SIMC_are_as_right(rule):
+    """Lag dominant ones too, where tau_I changes branch at another tau_c than with SIMC."""
+    rng = np.random.default_rng(SEED)
+    for plant in (
+        Plant(1, 1, (8,)),
+        Plant(1, 1, (0.1,)),
+        Plant(-2.0, 1.0, (10.0, 3.0)),
+        Plant(1, 1),
+        Plant(1, 1, (), (), 1),
+    ):
+        assert worst_error(plant, 1, rng, rule=rule) <= WORST
 
 
 def test_a_table_holds_what_its_header_says_and_pins_share_its_grid():

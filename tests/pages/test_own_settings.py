@@ -92,7 +92,7 @@ def test_times_and_gains_have_the_units_of_the_loop_sheet():
     units = {"unit": "min", "OP_unit": "%", "PV_unit": "°C"}
     app = run_page("tuning", "Compare", plant=HEATER, **units)
     table = next(frame.value for frame in app.dataframe if "present" in frame.value)
-    assert {"τc [min]", "Kp [%/°C]", "IAE, load [°C min]", "TV, load [%]"} <= set(table.iloc[:, 0])
+    assert {"τc [min]", "Kc [%/°C]", "IAE, load [°C min]", "TV, load [%]"} <= set(table.iloc[:, 0])
     assert app.text_input("tau_c_exact").label == "τc, exact [min]"
     assert "θ = 20 min is its effective dead time" in texts(app)
 

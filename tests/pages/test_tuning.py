@@ -127,9 +127,31 @@ def test_a_pinned_design_stays_what_it_was_and_is_drawn_and_listed():
     values = table.set_index("quantity")
     assert values.loc["τc", "A"] == "7"
     assert values.loc["τc", "present"] == "20"
-    assert float(values.loc["Kp", "A"]) == pytest.approx(0.5714)
+    assert float(values.loc["Kc", "A"]) == pytest.approx(0.5714)
     app.button(key="unpin_0").click().run()
     assert "pins" not in address(app)
+
+
+@pytest.mark.parametrize(
+    ("form", "rows"),
+    [
+        ("series", {"Kc": "2.222", "τI": "20", "τD": "0"}),  # SIMC of e^{-3s}/(20 s + 1), tau_c = 6: 20/9
+        ("ideal", {"Kc": "2.222", "τI": "20", "τD": "0"}),
+        ("parallel", {"Kp": "2.222", "Ki": "0.1111", "Kd": "0"}),
+    ],
+)
+def test_the_comparison_is_in_the_form_that_is_chosen(form, rows):
+    table = tuned("Compare", "exp(-3s)/(20s+1)", tau_c="6", form=form).dataframe[0].value
+    found = dict(zip(table["quantity"], table["present"], strict=True))
+    assert found | rows == found
+    assert not ({"Kc", "Kp"} - set(rows)) & set(found)
+
+
+def test_pure_integral_action_is_compared_as_such():
+    """e^{-s} with tau_c = 1: K_I = 1/2."""
+    table = tuned("Compare", "exp(-s)").dataframe[0].value
+    found = dict(zip(table["quantity"], table["present"], strict=True))
+    assert (found["KI"], found["Kc"]) == ("0.5", "–")
 
 
 def test_four_designs_are_enough():
@@ -214,6 +236,31 @@ def test_what_the_rules_do_not_cover_is_said_and_the_page_stays(plant, words):
     assert not [item for item in app.get("html") if '<div class="strip' in item.proto.body]
 
 
+@pytest.mark.parametrize("plant", ["exp(-s)/s^3", "1/(s^2+1)", "exp(-0.1s)/((s-1)(s-2))", "(s^2+1)/(s+1)^3"])
+def test_where_no_rule_exists_the_loop_is_closed_by_hand(plant):
+    app = tuned(plant=plant)
+    app.button(key="own_instead").click().run()
+    assert not app.error
+    assert app.segmented_control(key="controller_source").value == "own"
+    assert len(specs(app)) == PANELS
+
+
+def test_settings_without_the_form_asked_for_are_shown_in_one_they_have():
+    """[SK03 sect. 5]: Kc 2 zeta tau0/(k q) = 2/6, tau_I 2 zeta tau0 = 2, tau_D tau0/(2 zeta) = 12.5; no series form."""
+    app = tuned(plant="1.5exp(-2s)/(25s^2+2s+1)", form="series")
+    assert copied(app) == pytest.approx({"Kc": 1 / 3, "tau_I": 2, "tau_D": 12.5})
+    assert "no series form: shown in the ideal one" in texts(app)
+
+
+def test_the_plant_is_changed_on_this_page_and_the_choice_of_speed_stays():
+    """tau_c = 2 theta: 2 of e^{-s}/(8 s + 1), 6 of e^{-3s}/(20 s + 1); Kc = tau1/(k (tau_c + theta))."""
+    app = tuned(plant="exp(-s)/(8s+1)", speed="2theta")
+    assert copied(app)["Kc"] == pytest.approx(8 / 3)
+    app.text_input(key="plant_text_text").set_value("exp(-3s)/(20s+1)").run()
+    assert copied(app)["Kc"] == pytest.approx(20 / 9)
+    assert address(app)["speed"] == "2theta"
+
+
 def test_a_refusal_is_cured_on_the_page_where_it_is_told():
     """An unstable pole and a lag too long for PI; PID has settings [SK98 eq. 23]."""
     app = tuned(plant="exp(-0.01s)/(0.1s^2-1)")
@@ -282,3 +329,27 @@ def test_a_loop_at_the_edge_of_stability_has_margins_and_no_integrals():
 )
 def test_bands_of_ms(Ms, band):
     assert band_of(Ms).tone == band
+
+
+def test_later_forms_of_SIMC_stand_beside_it():
+    """e^{-s}/(8s+1): iSIMC has 5.333, 6, 0.3333 at theta/2 [GS18], improved SIMC 25/6 and 8 [SG12]."""
+    app = tuned(plant="exp(-s)/(8s+1)")
+    app.segmented_control(key="widget_rule").set_value("isimc").run()
+    assert not app.exception
+    assert copied(app) == pytest.approx({"Kc": 16 / 3, "tau_I": 6, "tau_D": 1 / 3})
+    assert (address(app)["rule"], address(app).get("tau_c")) == ("isimc", None)
+    app.segmented_control(key="widget_rule").set_value("improved_simc").run()
+    assert copied(app) == pytest.approx({"Kc": 25 / 6, "tau_I": 8, "tau_D": 0})
+    app.segmented_control(key="controller_source").set_value("own").run()
+    assert (address(app)["controller"], address(app)["rule"]) == ("own", "improved_simc")
+    app.segmented_control(key="controller_source").set_value("simc").run()
+    app.segmented_control(key="widget_rule").set_value("simc").run()
+    assert copied(app) == pytest.approx({"Kc": 4, "tau_I": 8, "tau_D": 0})
+
+
+def test_a_later_form_that_does_not_know_the_plant_leads_back_to_SIMC():
+    app = tuned(plant="exp(-s)/s^2", rule="isimc")
+    assert "first-order one" in texts(app)
+    app.button(key="remedy_refusal").click().run()
+    assert not app.error
+    assert "rule" not in address(app)

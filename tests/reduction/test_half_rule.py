@@ -1,6 +1,7 @@
 """The half rule against the published reductions, conservation laws and brute force over theta."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from simc_core import (
     half_rule,
 )
 from simc_core.reduction.dynamics import dynamics
-from simc_core.reduction.half_rule import _at
+from simc_core.reduction.half_rule import _at, _removed
 from tests.oracles.published import PUBLISHED, plant_of, select
 
 TIMES = st.floats(0.01, 100)
@@ -184,7 +185,7 @@ def test_candidates_against_iteration_from_everywhere(seed):
     for start in np.linspace(0, plant.theta + sum(lags), 400):
         theta = start
         for _ in range(60):
-            theta, before = _at(parts, 1, 0.0, theta).theta(theta), theta
+            theta, before = _at(parts, partial(_removed, parts), 1, 0.0, theta).theta(theta), theta
         if math.isclose(theta, before, rel_tol=1e-12, abs_tol=1e-12):
             reached.add(round(theta, 9))
     found = {round(candidate.theta, 9) for candidate in half_rule(plant).candidates}

@@ -54,6 +54,8 @@ PROVOKED = [
     (guards.other_than_chosen, RINGING, {}),
     (guards.other_than_chosen, Plant(1, 1, integrators=2), {}),
     (guards.other_than_chosen, FOPDT, {"order": 2}),
+    (guards.set_point_overshoot, Plant(0.05, 2, integrators=1), {}),
+    (guards.set_point_overshoot, Plant(1, 1, (3,), integrators=1), {"order": 2}),
 ]
 
 
@@ -110,6 +112,14 @@ def test_an_oscillating_plant_rings_after_a_set_point_step_as_well(plant, oversh
     pole = complex(-zeta, math.sqrt(1 - zeta**2)) / tau
     feedback, setpoint = (abs(path(pole)) for path in (design.controller.response, design.controller.setpoint_response))
     assert feedback < 1e-12 * setpoint  # cancelled in the loop, not from r
+
+
+def test_a_filter_that_would_ruin_the_loop_is_not_proposed():
+    """e^{-s}/(1e4 s^2 + 1e-4 s + 1): tau_D = tau0/(2 zeta) = 1e8; with tau_F = 2e5 there is hardly a margin left."""
+    found = guards.derivative_noise(tuned(Plant(1, 1, lag_pairs=((100, 5e-7),))))
+    assert not found.change
+    assert "fragile" in found.remedy
+    assert _peak(tuned(Plant(1, 1, lag_pairs=((100, 5e-7),)), filter=0.002).loop) > 2
 
 
 def test_the_phase_margin_that_hides_a_large_peak():
@@ -205,6 +215,10 @@ def _derivative(design, item):
         assert form.tau_F == 0
         if "Ms becomes" in item.remedy:
             _Ms_as_told(design, item)
+        if item.change and design.margins.stable:
+            assert _peak(design.changed(**item.change).loop) <= 1.11 * max(_peak(design.loop), 2)
+        if not item.change:
+            assert not _peak(replace(design.loop, controller=design.controller.with_filter(0.002))) <= 2
     else:
         gain = abs(design.controller.response(1j * 1e9 / form.tau_F))
         assert item.value == pytest.approx(gain, rel=1e-6)
@@ -266,7 +280,24 @@ def _rings(design, item):
     assert abs(design.controller.setpoint_response(pole)) > 1e6 * abs(design.controller.response(pole))
 
 
+def _overshoots(design, item):
+    """Peaks of y on a fine grid; with b = 1 the error of a loop with two integrators has no area: y must overshoot."""
+
+    def beyond(of):
+        return 100 * (float(np.max(simulate(of.loop, Scenario(disturbance=0.0)).y)) - 1)
+
+    assert beyond(design) == pytest.approx(item.value, abs=0.1)
+    changed = design.changed(**item.change)
+    told = float(item.remedy.split(": ")[1].split()[0])
+    assert max(beyond(changed), 0) == pytest.approx(told, abs=0.1)
+    assert told <= 10 < 20 < item.value
+    assert changed.margins == design.margins
+    slow = performance(design.changed(tau_c=5 * design.tau_c).loop).setpoint
+    assert slow.overshoot > 0.05
+
+
 CLAIMS = {
+    guards.set_point_overshoot: _overshoots,
     guards.not_stable: _not_stable,
     guards.large_Ms: _large,
     guards.derivative_noise: _derivative,
@@ -300,3 +331,26 @@ def test_where_no_rule_is_left_the_plant_lacks_a_dead_time():
     for order in (1, 2):
         with pytest.raises(SimcError, match="enter the dead time or the lag of the actuator"):
             tuned(Plant(1 / 9.81, 0, (tau, -tau)), order)
+
+
+def test_isimc_is_tight_at_half_of_the_dead_time_and_its_remedies_stay_with_it():
+    """[GS18] has tau_c = theta/2; half of that is called fast, and the way back is the rule's own choice."""
+    assert not [item for item in advice(tuned(FOPDT, rule="isimc")) if item.quantity == "tau_c"]
+    fast = tuned(FOPDT, rule="isimc", tau_c=0.25)
+    (item,) = (item for item in advice(fast) if item.quantity == "tau_c")
+    assert "tau_c = theta/2" in item.text
+    cured = fast.changed(**item.change)
+    assert (cured.rule, cured.tau_c) == ("isimc", 0.5)
+    assert cured.margins.Ms < fast.margins.Ms
+
+
+def test_no_order_is_proposed_for_a_rule_that_has_one_kind_of_controller():
+    for rule in ("improved_simc", "isimc"):
+        for plant in (FOPDT, THREE_LAGS, Plant(1, 1)):
+            assert not [item for item in advice(tuned(plant, rule=rule)) if "order" in item.change]
+
+
+def test_a_later_form_that_does_not_know_the_model_leads_back_to_SIMC():
+    with pytest.raises(RuleEnds, match="model must be a first-order one") as refused:
+        tuned(Plant(1, 1, integrators=2), rule="isimc")
+    assert tuned(Plant(1, 1, integrators=2), **refused.value.change).margins.stable

@@ -81,6 +81,10 @@ def test_the_change_has_bounds():
         robustness(LOOP, 1.5)
 
 
+def stable(loop: Loop) -> bool:
+    return stability(loop).verdict == "stable"
+
+
 def test_where_a_changed_plant_is_not_stable_a_larger_tau_c_helps():
     """What the page says there, on random plants of all kinds whose rule leaves tau_c free: changes of 50 %."""
     helped = 0
@@ -89,10 +93,12 @@ def test_where_a_changed_plant_is_not_stable_a_larger_tau_c_helps():
             continue
         tight = tuned(plant, order=1 + i % 2)
         fast = tight.changed(tau_c=0.4 * tight.tau_c) if tight.tau_c else tight
-        if robustness(fast.loop, 0.5).worst_corner.stable:
+        found = robustness(fast.loop, 0.5)
+        if found.worst_corner.stable:
             continue
+        plants = [changed(plant, case.change) for case in found.corners]
         factors = (1.5, 2, 3, 5, 10, 30, 100, 300)
-        slower = (robustness(fast.changed(tau_c=factor * fast.tau_c).loop, 0.5) for factor in factors)
-        assert any(found.worst_corner.stable for found in slower), (kind, plant)
+        slower = (fast.changed(tau_c=factor * fast.tau_c).loop for factor in factors)
+        assert any(all(stable(Loop(each, loop.controller)) for each in plants) for loop in slower), (kind, plant)
         helped += 1
     assert helped > 100

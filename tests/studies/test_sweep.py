@@ -20,6 +20,7 @@ from simc_core import (
     simulate,
     stability,
     sweep,
+    tune,
 )
 from simc_core.plants.models import DoubleIntegratingDelay, FirstOrderDelay, IntegratingDelay
 from simc_core.studies.sweep import MARGINS
@@ -150,3 +151,16 @@ def test_ramps_of_many_tunings_are_those_of_each_alone():
         alone = simulate(Loop(plant, controller), asked)
         together = found.y_setpoint[i] + found.y_disturbance[i], found.u_setpoint[i] + found.u_disturbance[i]
         np.testing.assert_allclose(together, (alone.y, alone.u), rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("rule", ["improved_simc", "isimc"])
+def test_a_row_of_a_later_form_is_that_tuning_alone(rule):
+    plant, tau_c = Plant(2, 1, (8, 3)), np.array([0.7, 2.0])
+    model = half_rule(plant).model
+    found = sweep(plant, model, tau_c, [0.0, 9.0, 40.0], OMEGA, filter_ratio=0.1, rule=rule)
+    for i, each in enumerate(tau_c.tolist()):
+        kind = "PID" if rule == "isimc" else "PI"
+        loop = Loop(plant, tune(rule, model, kind, tau_c=each).with_filter(0.1))
+        assert found.controllers[i] == loop.controller
+        assert found.Ms[i] == pytest.approx(margins(loop).Ms, rel=1e-9)
+        assert found.IAE_disturbance[i] == pytest.approx(performance(loop).disturbance.IAE, rel=1e-7)

@@ -10,6 +10,7 @@ from html import escape
 
 import streamlit as st
 
+from pages.common.parts.settings_text import form_shown
 from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy
 from simc_core.controllers.forms import Controller
@@ -93,8 +94,8 @@ def narrow(study: CascadeStudy, form: str) -> str:
 
 
 def settings_lines(controller: Controller, form: str) -> list[tuple[str, float]]:
-    """Names and values of the settings in `form`; in the parallel form where there is none."""
-    shown = controller.in_form(form if controller.has_form(form) else "parallel")
+    """Names and values of the settings in `form`, or in one that the controller has."""
+    shown = controller.in_form(form_shown(controller, form))
     always, optional = shown.SETTINGS[:2], (*shown.SETTINGS[2:], *shown.OPTIONAL[:1])
     return [(name, getattr(shown, name)) for name in (*always, *(name for name in optional if getattr(shown, name)))]
 

@@ -7,6 +7,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
+from pages.common.parts.settings_text import form_shown
 from pages.common.parts.units import time_text
 from pages.common.plant.entry import plant_entry
 from pages.common.session import state
@@ -92,8 +93,9 @@ def form(study: CascadeStudy | None) -> str:
     st.segmented_control("Settings in the diagram", FORMS, **state.bound("form"))
     chosen = state.value("form")
     for name, controller in (("a", study.loop.outer), ("b", study.loop.inner)) if study else ():
-        if not controller.has_form(chosen):
-            st.caption(f"$C_{name}$ has no {chosen} form: shown in the parallel one.")
+        shown = form_shown(controller, chosen)
+        if shown != chosen:
+            st.caption(f"$C_{name}$ has no {chosen} form: shown in the {shown} one.")
     return chosen
 
 

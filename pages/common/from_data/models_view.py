@@ -6,22 +6,13 @@ from html import escape
 import streamlit as st
 
 from pages.common.from_data.work import MORE, USUAL, Fits, Work
-from pages.common.parts.symbols import SYMBOLS, sentence
+from pages.common.parts.structures import TITLES, sign_of
+from pages.common.parts.symbols import sentence
 from pages.common.session import state
 from pages.common.session.design import Design
 from simc_core import Identified, Trend
 from simc_core.notation import number
 
-TITLES = {
-    "FOPDT": "First order",
-    "SOPDT": "Second order",
-    "IPDT": "Integrating",
-    "IPDT_lag": "Integrating with lag",
-    "inverse": "With a zero",
-    "oscillating": "Oscillating",
-    "DIPDT": "Double integrating",
-    "unstable": "Unstable",
-}
 FORMULAS = {
     "FOPDT": r"\frac{k\,e^{-\theta s}}{\tau_1 s+1}",
     "SOPDT": r"\frac{k\,e^{-\theta s}}{(\tau_1 s+1)(\tau_2 s+1)}",
@@ -32,7 +23,7 @@ FORMULAS = {
     "oscillating": r"\frac{k\,e^{-\theta s}}{\tau_0^2s^2+2\zeta\tau_0 s+1}",
     "unstable": r"\frac{k'e^{-\theta s}}{s-a}",
 }
-SIGNS = {"k_prime": "k'", "k_double_prime": "k''"}
+UNKNOWN = 100.0  # ends of an interval that far apart tell nothing
 UNITS = {"k": (1, 0), "k_prime": (1, -1), "k_double_prime": (1, -2), "zeta": (0, 0), "a": (0, -1)}
 
 
@@ -71,7 +62,7 @@ def ranking(fits: Fits, model: Identified, trend: Trend) -> None:
             "behind": number(each.criterion) if each.criterion else "best",
             f"θ [{unit}]" if unit else "θ": number(each.parameters["theta"]),
             "others": ", ".join(
-                f"{_plain(name)} = {number(value)}" for name, value in each.parameters.items() if name != "theta"
+                f"{sign_of(name)} = {number(value)}" for name, value in each.parameters.items() if name != "theta"
             ),
         }
         for each in fits.found
@@ -98,8 +89,9 @@ def card(model: Identified, trend: Trend, part: Trend) -> None:
     if model.correlation > 0.05:
         facts.append(f"correlation of neighbouring residuals {number(model.correlation, 2)}")
     st.caption(", ".join(facts) + ". Intervals: 95 %.")
-    for verdict in model.verdicts:
-        st.warning(sentence(verdict))
+    if model.verdicts:
+        with st.container(key="verdicts"):
+            st.warning("\n".join(f"- {sentence(verdict)}" for verdict in model.verdicts))
     if len(model.gains) > 1:
         _gains(model, trend)
 
@@ -127,15 +119,11 @@ def _take() -> None:
 
 def _cell(name: str, model: Identified, trend: Trend) -> str:
     low, high = model.intervals[name]
-    return _cell_html(_plain(name), number(model.parameters[name]), _between(low, high), _unit(name, trend))
+    return _cell_html(sign_of(name), number(model.parameters[name]), _between(low, high), _unit(name, trend))
 
 
 def _cell_html(label: str, value: str, spread: str, unit: str) -> str:
     return f"<div><small>{label}</small><b>{value}</b> <i>{escape(unit)}</i><small>{spread}</small></div>"
-
-
-def _plain(name: str) -> str:
-    return SIGNS.get(name) or SYMBOLS.get(name, name)
 
 
 def _unit(name: str, trend: Trend) -> str:
@@ -156,5 +144,7 @@ def _unit(name: str, trend: Trend) -> str:
 def _between(low: float, high: float) -> str:
     """An interval with as many digits as its width deserves."""
     size, width = max(abs(low), abs(high)), high - low
+    if low > 0 and high > UNKNOWN * low:
+        return "not resolved"
     digits = 3 if not 0 < width < size else min(max(3, 1 + math.ceil(math.log10(size / width))), 8)
     return f"{number(low, digits)} … {number(high, digits)}"

@@ -21,11 +21,11 @@ def choose(design: Design) -> Work | None:
     work: Work | None = state.lasting(WORK, lambda: None)
     turn = state.lasting(TURN, lambda: 0)  # a fresh field each time: nothing of a file or a paste stays in it
     upload = st.file_uploader(
-        "Trend: time, PV, OP, and SP where there is one",
+        "File with time, PV, OP",
         type=KINDS,
         key=f"trend_file_{turn}",
         max_upload_size=LARGEST_MB,
-        help="It is read here and forgotten with this session.",
+        help="With SP where there is one. It is read on this server and forgotten with this session.",
     )
     if upload is not None:
         _read(upload.name, upload.getvalue())
@@ -72,10 +72,14 @@ def _take_example() -> None:
     if state.overtaken("example"):
         return
     key = state.widget("example")
-    state.make_last(REFUSED, None)
     if key:
-        state.make_last(WORK, work_on_example(key))
-        state.change(example=key, begin=None, end=None, bad=(), structure="")
+        _begin_example(key)
+
+
+def _begin_example(key: str) -> None:
+    state.make_last(REFUSED, None)
+    state.make_last(WORK, work_on_example(key))
+    state.change(example=key, begin=None, end=None, bad=(), structure="")
 
 
 def _read(name: str, content: bytes | str) -> bool:
@@ -102,5 +106,10 @@ def empty() -> None:
     """What to do where there is no record yet."""
     st.info(
         "Upload or paste a record of a step test: time, the measurement (PV) and the controller output (OP). "
-        "A record in closed loop serves too, if the set point moved. Or choose an example to try."
+        "A record in closed loop serves too, if the set point moved. Or choose an example to try:"
     )
+    with st.container(key="some_examples"):
+        for key, example in EXAMPLES.items():
+            with st.container(border=True, gap="xsmall"):
+                st.button(example.title, key=f"try_{key}", on_click=_begin_example, args=(key,), width="stretch")
+                st.caption(f"{example.note} Made with {example.truth}.")

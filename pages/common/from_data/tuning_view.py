@@ -40,13 +40,16 @@ def show(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified) -
             st.warning(sentence(why))
         else:
             _say(tau_c, limit, model, trend, len(several))
+    slower = tau_c is not None and tau_c > 1.001 * model.model.theta
     with st.container(key="send", horizontal=True, gap="small"):
-        if st.button("Tune this model", type="primary", key="tune"):
-            _send(work, trend, part, model, None)
-        if tau_c and tau_c > 1.001 * model.model.theta:
+        if slower and tau_c is not None:
             slow = rounded_up(tau_c)
-            if st.button(f"Tune it with τc = {number(slow)} {_plain(trend)}".rstrip(), key="tune_robust"):
+            label = f"Tune this model, τc = {number(slow)} {_plain(trend)}".rstrip()
+            if st.button(label, type="primary", key="tune_robust"):
                 _send(work, trend, part, model, slow)
+        label = "Tune this model, τc = θ" if slower else "Tune this model"
+        if st.button(label, type="secondary" if slower else "primary", key="tune"):
+            _send(work, trend, part, model, None)
     with st.expander("Ms against τc"):
         _curve(fits, several, limit, tau_c, trend)
 
@@ -58,7 +61,8 @@ def _near(each: Identified) -> bool:
 def _say(tau_c: float, limit: float, model: Identified, trend: Trend, structures: int) -> None:
     theta = model.model.theta
     size = f"{number(tau_c)} {_plain(trend)}".rstrip()
-    times = f" = {number(tau_c / theta, 3)} θ" if theta > 0.01 * tau_c else ""
+    many = number(tau_c / theta, 3) if theta > 0.01 * tau_c else ""
+    times = f" = {many} θ" if many not in ("", "1") else " = θ" if many else ""
     others = {1: "", 2: ", and another structure that fits nearly as well"}
     besides = others.get(structures, f", and {structures - 1} other structures that fit nearly as well")
     st.markdown(

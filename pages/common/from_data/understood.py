@@ -70,7 +70,14 @@ def _pick(work: Work, name: str, label: str, choices: list[str], now: str | None
     key = f"reading_{name}"
     state.set_widget(key, now if now in choices else None)
     st.selectbox(
-        label, choices, index=None, key=key, help=about, placeholder="none", on_change=_take, args=(work, name, key)
+        label,
+        choices,
+        index=None if now not in choices else 0,
+        key=key,
+        help=about,
+        placeholder="none",
+        on_change=_take,
+        args=(work, name, key),
     )
 
 

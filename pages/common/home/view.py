@@ -11,8 +11,6 @@ from simc_core import SimcError, parse_plant
 from simc_core.plants.examples import EXAMPLES, Example
 from simc_core.plants.plant import Plant
 
-A_ROW = 3
-
 
 def my_plant() -> None:
     """A transfer function as text, and from there straight to its tuning."""
@@ -26,7 +24,8 @@ def my_plant() -> None:
         tune = button.form_submit_button("Tune", type="primary", width="stretch")
     st.caption(
         "Dead time exact, negative gain, integrators and unstable poles included; a decimal comma is understood. "
-        "Without a transfer function: the page *Plant* takes gain, dead time and time constants one by one."
+        "Without a transfer function: *Plant* takes gain, dead time and time constants one by one, *From data* a "
+        "recorded step test."
     )
     if tune:
         try:
@@ -38,11 +37,11 @@ def my_plant() -> None:
                 _begin(plant, mine=True)
 
 
-def cards(examples: tuple[Example, ...]) -> None:
+def cards(examples: tuple[Example, ...], name: str) -> None:
     """Examples as cards, each with its transfer function; a click begins a loop with it."""
-    for first in range(0, len(examples), A_ROW):
-        for column, example in zip(st.columns(A_ROW), examples[first : first + A_ROW], strict=False):
-            with column.container(border=True, height="stretch", vertical_alignment="distribute"):
+    with st.container(key=f"cards_{name}"):
+        for example in examples:
+            with st.container(border=True, height="stretch", vertical_alignment="distribute"):
                 st.markdown(f"${fitted(example.plant)}$")
                 st.caption(symbols(f"{example.note} {example.source}"))
                 if st.button(example.name, key=f"example_{example.key}", width="stretch"):
@@ -53,7 +52,7 @@ def cards(examples: tuple[Example, ...]) -> None:
 def papers() -> None:
     """The examples of the papers, by name."""
     with st.expander("Examples of the papers"):
-        cards(EXAMPLES)
+        cards(EXAMPLES, "papers")
 
 
 def _begin(plant: Plant, mine: bool) -> None:

@@ -1,5 +1,6 @@
 """Figures on a page: one, or a field of panels two by two, on a narrow screen the chosen one alone."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import streamlit as st
@@ -32,9 +33,11 @@ def field(found: tuple[Panel, ...]) -> None:
                 show(panel.figure, panel.key, panel.alt)
 
 
-def show(figure: Figure, key: str, alt: str) -> None:
-    """A figure with hover, zoom and SVG export."""
-    st.plotly_chart(axes_named(figure, state.design_now().sheet), key=f"figure_{key}", config=config(key), alt=alt)
+def show(figure: Figure, key: str, alt: str, picked: Callable[[str], None] | None = None) -> None:
+    """A figure with hover, zoom and SVG export.   picked: called with the key of the widget when a point is clicked."""
+    name = f"figure_{key}"
+    pick = {"on_select": lambda: picked(name), "selection_mode": "points"} if picked else {}
+    st.plotly_chart(axes_named(figure, state.design_now().sheet), key=name, config=config(key), alt=alt, **pick)
 
 
 def _style(keys: list[str], chosen: int) -> str:

@@ -34,6 +34,11 @@ def sizes(controller: Controller) -> dict[str, float]:
     return {name: sign * value if name.startswith("K") else value for name, value in controller.settings.items()}
 
 
+def form_shown(controller: Controller, asked: str) -> str:
+    """The form asked for; where the controller has none, the one in which it is still typed."""
+    return next(form for form in (asked, "ideal", "parallel") if controller.has_form(form))
+
+
 def as_text(controller: Controller, form: str, sheet: Sheet) -> str:
     """Settings as lines `name = value unit`, ten digits, and the action; for the control system, not for the eye.
 

@@ -6,6 +6,7 @@ Pure Python, no streamlit. links.py writes a Design as an address, project.py as
 from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 
+from pages.common.session.compared import PRESENT, Compared
 from pages.common.session.home import Home
 from pages.common.session.record import Chosen, Origin
 from pages.common.session.sheet import Sheet, one_of, ratio
@@ -14,6 +15,7 @@ from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
 from simc_core.plants.step_facts import StepFacts
+from simc_core.rules.simc_family import FAMILY
 from simc_core.rules.speed import WORDS, is_speed, times_theta
 
 KINDS = ("PI", "PID")
@@ -29,6 +31,7 @@ LOWEST_N, HIGHEST_N = 0.1, 1000.0
 class Tuning:
     """How a controller is made from the plant.
 
+    rule: SIMC, or one of its later forms, which take the model of order 1.
     order: of the reduced model; 1 gives a PI, 2 a PID controller.   h, tau_F: sampling period, and filter of the box,
     that theta allows for; 0 for none. The sampling period of the design is Actuator.h, and h is that or 0.
     speed: tau_c as a choice that follows the plant, "1.5theta" or one of WORDS; "" for tight, the model's own theta.
@@ -44,6 +47,7 @@ class Tuning:
     rules: str = "2003"
     speed: str = ""
     tau_F: float = 0.0
+    rule: str = "simc"
 
     def __post_init__(self):
         put = object.__setattr__
@@ -58,6 +62,7 @@ class Tuning:
         put(self, "b", checks.real("b", self.b, 0.0, 2.0))
         put(self, "filter", checks.real("filter", self.filter, 0.0, 10.0))
         one_of("rules", self.rules, RULES)
+        one_of("rule", self.rule, FAMILY)
 
     @property
     def kind(self) -> str:
@@ -232,6 +237,7 @@ class Design:
     box: what the settings are typed into, a key of BOXES, "" where not told.   home: how they are taken there.
     record: what is chosen of the record on the page From data.
     origin: of a plant that was identified; None for one that came otherwise, or has changed since.
+    compared: what the page of rules compares.
     """
 
     plant: Plant = field(default_factory=lambda: Plant(1.0, 3.0, (6.0, 4.0, 2.0)))  # [V06] example 1
@@ -249,6 +255,7 @@ class Design:
     box: str = ""
     record: Chosen = field(default_factory=Chosen)
     origin: Origin | None = None
+    compared: Compared = field(default_factory=Compared)
     home: Home = field(default_factory=Home)
 
     def __post_init__(self):
@@ -272,7 +279,7 @@ class Design:
 PLACES: dict[str, tuple[str, str]] = {
     **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box", "origin")},
     "controller": ("", "source"),
-    **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed", "tau_F")},
+    **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed", "tau_F", "rule")},
     **{name: ("sheet", name) for name in ("tag", "note")},
     "unit": ("sheet", "time_unit"),
     **{
@@ -297,6 +304,7 @@ PLACES: dict[str, tuple[str, str]] = {
     "r_ramp": ("excitation", "setpoint_ramp"),
     "d_ramp": ("excitation", "disturbance_ramp"),
     **{f"r_{end}": ("excitation", f"setpoint_{end}") for end in ("low", "high", "rate")},
+    **{f"compared_{name}": ("compared", name) for name in ("plant", "kind", "tau_F", "Ms", "criterion", "rule")},
 }
 
 
@@ -355,6 +363,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
         actuator=_in_time(design.actuator, time),
         excitation=_in_time(design.excitation, time),
         home=design.home.in_time(time),
+        compared=_in_time(design.compared, time) if design.compared.plant == PRESENT else design.compared,
         cascade=replace(
             _in_time(design.cascade, time),
             primary=primary,

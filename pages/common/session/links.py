@@ -1,10 +1,10 @@
 """A Design as query parameters and back. Pure: no streamlit, so that it can be tested alone.
 
-    plant, order, h, tau_c, b, filter, rules, speed, tau_F, form
+    plant, order, h, tau_c, b, filter, rules, speed, tau_F, rule, form
                                                      the design itself; from h on only where not the default
     facts                                            of the step test that the plant was made from
     own, now, controller                             my settings, those in the plant now, which of them is judged
-    pins                                             order~h~tau_c~b~filter~rules~speed~tau_F, or settings;
+    pins                                             order~h~tau_c~b~filter~rules~speed~tau_F~rule, or settings;
                                                      separated by !
     example, structure, begin, end, bad              what is chosen of a record on the page From data
     origin                                           of a plant that was identified there
@@ -16,6 +16,7 @@
     resolution, dead_band, backlash, rate_limit      the loop as built, only where it is not the default
     r, d, d_time, r_ramp, d_ramp                     set point and load in the figures
     r_low, r_high, r_rate                            limits of the set point in the controller
+    compared_plant, compared_kind, compared_Ms, ...  what the page of rules compares
 
 Numbers are written with all their digits, so that a link opens the very same design.
 """
@@ -40,10 +41,11 @@ TUNING_FIELDS = tuple(name for name, (record, _) in PLACES.items() if record == 
 SETTINGS = ("own", "now")
 FORM_NAMES = {"series": SeriesPid, "ideal": IdealPid, "parallel": ParallelPid, "I": IController}
 TEXTS = (
-    *("rules", "form", "speed", "controller", "box"),
+    *("rules", "rule", "form", "speed", "controller", "box"),
     *("tag", "note", "unit", "PV", "PV_unit", "OP", "OP_unit"),
     *("method", "inner", "outer", "filter_outer", "law", "example", "structure"),
     *("rounding", "language", "exported", "between"),
+    *("compared_plant", "compared_kind", "compared_criterion", "compared_rule"),
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")
@@ -235,7 +237,7 @@ def _pin(text: str) -> Tuning | Controller:
     values = text.split("~")
     if values[0] in FORM_NAMES:
         return settings_of(text)
-    if not 0 <= len(TUNING_FIELDS) - len(values) <= 2:  # links of before have no speed or no tau_F
+    if not 0 <= len(TUNING_FIELDS) - len(values) <= 3:  # links of before have no speed, tau_F or rule
         raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, got {len(values)}")
     given = dict(zip(TUNING_FIELDS, values, strict=False))
     return Tuning(**{name: _read(name, value) for name, value in given.items() if value})

@@ -6,6 +6,7 @@ import streamlit as st
 
 from pages.common.parts.copyable import copyable
 from pages.common.parts.foreign_text import exact, told
+from pages.common.parts.structures import told_of
 from pages.common.parts.units import time_text
 from pages.common.session import project, state
 from pages.common.session.design import Design
@@ -18,7 +19,7 @@ from simc_core.plants.plant import Plant
 GROUPS = {
     "Start": {"home": "Home"},
     "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
-    "Tune": {"tuning": "Tuning", "cascade": "Cascade"},
+    "Tune": {"tuning": "Tuning", "rules": "Rules", "cascade": "Cascade"},
     "Use": {"take_home": "Take home"},
     "Learn": {"accuracy": "Accuracy"},
 }
@@ -48,14 +49,15 @@ def show(place: str) -> Design:
         else:
             _block("G", design.plant)
             theta = time_text(design.plant.theta, design.sheet)
-            st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content")
+            about = told_of(design.origin) if design.origin else None
+            st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content", help=about)
         if place in CHAIN:
             chain(place)
     _notices()
     with st.sidebar:
         loops_menu()
         sheet_form()
-        _take_along()
+        _take_along(place)
     return design
 
 
@@ -88,17 +90,17 @@ def _notices() -> None:
         st.button("Dismiss", on_click=state.dismiss_ignored)
 
 
-def _take_along() -> None:
+def _take_along(place: str) -> None:
     st.caption("Share link: this page and design")
     copyable(state.address(), "address_text")
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
     upload = st.file_uploader("Open project", type="json", key="project_file", max_upload_size=1)
     if upload is not None:
-        _open(upload)
+        _open(upload, place)
 
 
-def _open(upload) -> None:
+def _open(upload, place: str) -> None:
     """Take the design of a file, once; a wrong file changes nothing and says why."""
     if state.memory("opened", lambda: None) != upload.file_id:
         state.remember("opened", upload.file_id)
@@ -107,7 +109,11 @@ def _open(upload) -> None:
         if loops is not None:
             state.take_loops(loops)
             state.remember("opened", upload.file_id)
+            if place == "home":
+                go("tuning")
             st.rerun()
     why = state.memory("refused", lambda: "")
     if why:
         st.error(f"{exact(upload.name)} was not opened, nothing changed: {told(why)}")
+    else:
+        st.caption(f"Opened: {exact(upload.name)}. Its loops are in the list above.")

@@ -76,7 +76,8 @@ def actuator_view(study: Study, design: Design) -> None:
         if study.tuned and (sampled := sampling_not_in_tuning(study.tuned, design.actuator.h)):
             proposal(sampled)
     with explain_refusal():
-        found = as_built(study.loop, design.actuator.scenario(design.excitation))
+        with st.spinner("Simulating the loop as built"):
+            found = as_built(study.loop, design.actuator.scenario(design.excitation))
         st.html(numbers_html(found, design.sheet))
         if found.numbers is not None and found.numbers.cycle:
             st.info(cycle_in_words(found.numbers.cycle, design.sheet))
@@ -170,7 +171,9 @@ def _range_of_OP(design: Design) -> None:
     limits = {"u_min": sheet.off_scale(sheet.OP_low), "u_max": sheet.off_scale(sheet.OP_high)}
     if (actuator.u_min, actuator.u_max) != tuple(limits.values()):
         st.button(
-            f"Limits as in the loop sheet: OP {number(sheet.OP_low)} to {number(sheet.OP_high)}",
+            with_unit(
+                f"Limits as in the loop sheet: OP {number(sheet.OP_low)} to {number(sheet.OP_high)}", sheet.OP_unit
+            ),
             key="range_of_OP",
             type="tertiary",
             icon=":material/arrow_forward:",

@@ -37,16 +37,19 @@ def model_error_view(study: Study, excitation: Excitation) -> None:
         key="change",
         help="$\\tau_1$ is the slowest lag. All corners, and a Latin hypercube of 24 plants between them.",
     )
-    found = robustness(study.loop, percent / 100)
+    with st.spinner("Trying changed plants"):
+        found = robustness(study.loop, percent / 100)
     st.markdown(summary(study, found, percent))
-    begins, t_end = times(study.loop, excitation.scenario())
-    nominal = simulate(study.loop, excitation.scenario(disturbance_time=begins, t_end=t_end))
-    asked = excitation.scenario(disturbance_time=begins, t_end=t_end, t=np.linspace(0.0, t_end, POINTS))
-    family = [simulate(case.loop, asked) for case in (*found.corners, *found.samples)]
+    with st.spinner("Simulating changed plants"):
+        begins, t_end = times(study.loop, excitation.scenario())
+        nominal = simulate(study.loop, excitation.scenario(disturbance_time=begins, t_end=t_end))
+        asked = excitation.scenario(disturbance_time=begins, t_end=t_end, t=np.linspace(0.0, t_end, POINTS))
+        family = [simulate(case.loop, asked) for case in (*found.corners, *found.samples)]
+        worst = simulate(found.worst.loop, asked)
     omega = omega_grid([study.loop.L])
     left, right = st.columns(2, gap="small")
     with left:
-        figure = bundle_figure(nominal, family, simulate(found.worst.loop, asked), HEIGHT)
+        figure = bundle_figure(nominal, family, worst, HEIGHT)
         show(figure, "bundle", "Outputs y of the changed plants")
     with right:
         show(

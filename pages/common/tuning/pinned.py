@@ -5,19 +5,25 @@ from dataclasses import replace
 
 import streamlit as st
 
+from pages.common.parts.settings_text import UNITS as SETTING_UNITS
 from pages.common.parts.settings_text import sizes
 from pages.common.parts.units import unit_of, with_plain_unit
 from pages.common.session import state
 from pages.common.session.design import MOST_PINS, Tuning
 from pages.common.studies.single import Study, study, study_of_settings
-from simc_core.controllers.forms import Controller
+from pages.common.tuning.source import LABELS
+from simc_core.controllers.forms import FORMS, Controller, IController
 from simc_core.errors import SimcError
 from simc_core.notation import number
 from simc_core.plants.plant import Plant
 
 LETTERS = "ABCD"
-LABELS = (
-    *("controller", "action", "τc", "Kp", "Ki", "Kd", "τF", "b"),
+SETTINGS = {
+    "series": ("Kc", "tau_I", "tau_D"),
+    "ideal": ("Kc", "tau_I", "tau_D"),
+    "parallel": ("Kp", "Ki", "Kd"),
+}
+JUDGED = (
     *("Ms", "Mt", "GM", "GM, lower limit", "PM, degrees", "delay margin"),
     *("IAE, set point", "IAE, load", "TV, set point", "TV, load"),
     *("overshoot, %", "settling, set point", "settling, load"),
@@ -27,7 +33,7 @@ UNITS = {
     **dict.fromkeys(("τc", "τF", "delay margin", "settling, set point", "settling, load"), "time"),
     **dict.fromkeys(("IAE, set point", "IAE, load"), "PV time"),
     **dict.fromkeys(("TV, set point", "TV, load"), "OP"),
-    **{"Kp": "OP/PV", "Ki": "OP/(PV time)", "Kd": "OP time/PV"},
+    **{LABELS[name]: unit for name, unit in SETTING_UNITS.items()},
 }
 
 
@@ -62,13 +68,15 @@ def pin_button(present: Study) -> None:
 
 
 def design_table(studies: list[tuple[str, Study]]) -> None:
-    """One column a design, present first; a loop that is not stable has no figures."""
-    columns = {name: facts(each) for name, each in studies}
-    sheet = state.design_now().sheet
+    """One column a design, present first, in a form that all have; a loop that is not stable has no figures."""
+    form, sheet = common_form([each.controller for _, each in studies], state.value("form")), state.design_now().sheet
+    columns = {name: facts(each, form) for name, each in studies}
+    integral = [LABELS["K_I"]] * any(isinstance(each.controller, IController) for _, each in studies)
+    settings = *map(LABELS.get, SETTINGS[form]), *integral
     rows = [
         {"quantity": with_plain_unit(label, unit_of(UNITS.get(label, ""), sheet))}
         | {name: each.get(label, "–") for name, each in columns.items()}
-        for label in LABELS
+        for label in ("controller", "action", "τc", *settings, "τF", "b", *JUDGED)
     ]
     wide = {"quantity": st.column_config.TextColumn(width="medium")}
     st.dataframe(
@@ -83,24 +91,29 @@ def design_table(studies: list[tuple[str, Study]]) -> None:
             st.button(f"Unpin {LETTERS[i]}", key=f"unpin_{i}", on_click=state.change, kwargs={"pins": left})
 
 
-def facts(each: Study) -> dict[str, str]:
-    """What the table says of a design by LABELS, four significant digits."""
-    settings = each.controller.to_parallel()
-    kind = "PID" if settings.Kd else "PI" if settings.Kp else "I"
+def common_form(controllers: list[Controller], asked: str) -> str:
+    """The form asked for where all have it, else the first one they all have."""
+    return next(form for form in (asked, *FORMS[1:]) if all(each.has_form(form) for each in controllers))
+
+
+def facts(each: Study, form: str) -> dict[str, str]:
+    """What the table says of a design by its labels, four significant digits."""
+    controller = each.controller
+    parts = controller.to_parallel()
+    kind = "PID" if parts.Kd else "PI" if parts.Kp else "I"
     tau_c = math.nan if each.tau_c is None else each.tau_c
-    gains = sizes(settings)
-    numbers = (tau_c, gains["Kp"], gains["Ki"], gains["Kd"], settings.tau_F, settings.b)
-    found = [kind, settings.action, *map(number, numbers)]
+    told = {"controller": kind, "action": controller.action, "τc": number(tau_c)}
+    told |= {LABELS[name]: number(value) for name, value in sizes(controller.in_form(form)).items()}
+    told |= {"τF": number(parts.tau_F), "b": number(parts.b)}
     if not each.stable:
-        return dict(zip(LABELS, [*found, "not stable"], strict=False))
+        return told | {JUDGED[0]: "not stable"}
     judged, metrics = each.margins, each.performance
     judgement = (
         *(judged.Ms, judged.Mt, judged.GM, judged.GM_lower, judged.PM_deg, judged.delay_margin),
         *(metrics.setpoint.IAE, metrics.disturbance.IAE, metrics.setpoint.TV, metrics.disturbance.TV),
         *(100 * metrics.setpoint.overshoot, metrics.setpoint.settling_time, metrics.disturbance.settling_time),
     )
-    found += map(number, judgement)
-    told = dict(zip(LABELS, found, strict=True))
+    told |= dict(zip(JUDGED, map(number, judgement), strict=True))
     return told if judged.GM_lower else told | {"GM, lower limit": "none"}
 
 

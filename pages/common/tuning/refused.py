@@ -6,6 +6,8 @@ from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.refusals import explain_refusal
 from pages.common.parts.rules_choice import rules_choice
+from pages.common.session import state
+from pages.common.tuning.source import FIRST
 from pages.common.tuning.widgets import structure
 from simc_core import Plant
 from simc_core.errors import SimcError
@@ -22,9 +24,18 @@ def choices() -> None:
 
 
 def refused(plant: Plant, refusal: SimcError) -> None:
-    """The refusal in words, and G itself over frequency."""
+    """The refusal in words, what is possible all the same, and G itself over frequency."""
     with explain_refusal():
         raise refusal
+    if state.value("controller") != "own":
+        st.button(
+            "Close the loop with settings of my own",
+            key="own_instead",
+            type="tertiary",
+            icon=":material/arrow_forward:",
+            on_click=state.change,
+            kwargs={"own": state.value("own") or FIRST, "controller": "own"},
+        )
     left, right = st.columns(2, gap="small")
     with left:
         st.markdown("**Bode diagram of the plant**")

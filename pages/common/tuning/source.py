@@ -14,9 +14,12 @@ from pages.common.studies.single import Study, study_of_settings
 from simc_core.controllers.forms import FORMS, Controller, IdealPid
 from simc_core.errors import InvalidParameter, SimcError
 from simc_core.plants.plant import Plant
+from simc_core.rules.simc_family import FAMILY
 from simc_core.studies.retune import what_changes
 
-SOURCES = {"simc": "SIMC", "own": "My settings"}
+OWN = "own"
+SOURCES = {"simc": "SIMC", OWN: "My settings"}
+NAMES = {"simc": "original", "improved_simc": "improved", "isimc": "iSIMC"}
 LABELS = {"Kc": "Kc", "tau_I": "τI", "tau_D": "τD", "Kp": "Kp", "Ki": "Ki", "Kd": "Kd", "K_I": "KI", "tau_F": "τF"}
 FIRST = IdealPid(1.0, 10.0)  # where there is nothing to take over
 NOW = "now"  # its name in figures, tables and legends
@@ -34,13 +37,24 @@ def source_control(made: Study | None) -> None:
         on_change=_choose,
         args=(made.controller if made else FIRST,),
     )
+    if state.value("controller") != OWN:
+        st.segmented_control(
+            "Rule",
+            FAMILY,
+            format_func=NAMES.get,
+            required=True,
+            help="Original: PI or PID [SK03]. Improved, PI: $\\tau_1 + \\theta/3$ in place of $\\tau_1$, for plants "
+            "where dead time dominates [SG12]. iSIMC, PID: $\\tau_D = \\theta/3$, and $\\tau_c$ down to $\\theta/2$ "
+            "[GS18]. The later two are made from the first-order model.",
+            **state.bound("rule"),
+        )
 
 
 def _choose(offered: Controller) -> None:
     if state.overtaken("controller_source"):
         return
     chosen = state.widget("controller_source")
-    if chosen == "own" and state.value("own") is None:
+    if chosen == OWN and state.value("own") is None:
         state.change(own=_shown_in_form(offered))
     state.change(controller=chosen)
 
@@ -58,7 +72,7 @@ def my_settings(made: Study | None) -> None:
             "Take over the SIMC settings",
             key="take_over",
             width="stretch",
-            help="Copies what SIMC gives for this plant into the fields, to be changed by hand.",
+            help="Copies what the rule gives for this plant into the fields, to be changed by hand.",
             on_click=lambda: state.change(own=_shown_in_form(made.controller)),
         )
 
@@ -127,7 +141,7 @@ HELP = {
 def in_the_plant_now(plant: Plant, present: Study | None) -> Study | None:
     """The baseline: fields for it, and its study around this plant; None where none was told."""
     now = state.value("now")
-    with st.expander("In the plant now" if now is None else "In the plant now: compared", expanded=False):
+    with st.expander("In the plant now"):  # always of this name: another one would be closed
         if now is None:
             st.caption("Settings that are in your controller today, to see what a change brings and costs.")
             offered = present.controller if present else FIRST

@@ -9,7 +9,7 @@ from pages.common import live
 from pages.common.parts.copyable import copyable
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
-from pages.common.parts.settings_text import ACTIONS, UNITS, as_text, sizes
+from pages.common.parts.settings_text import ACTIONS, UNITS, as_text, form_shown, sizes
 from pages.common.parts.settings_text import structure as formula
 from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
@@ -18,10 +18,10 @@ from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from pages.common.tuning.source import LABELS, form_control
 from simc_core.controllers.forms import Controller
-from simc_core.errors import FormError
 from simc_core.notation import latex, number
 from simc_core.plants.models import Model, UnstableDelay
-from simc_core.rules.simc import default_tau_c, tau_c_multiples, tau_c_presets
+from simc_core.rules.simc import default_tau_c
+from simc_core.rules.simc_family import multiples_of, presets_of, usual_tau_c
 from simc_core.studies.advice import slowest_useful
 
 STEPS_PER_DECADE = 20
@@ -83,12 +83,13 @@ def _slid(model: Model, scale: float) -> None:
 def structure() -> None:
     """PI or PID, set-point weight, derivative filter."""
     row = st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall", key="structure")
-    row.segmented_control(
-        "Controller",
-        KINDS,
-        help="PI takes the first-order model, PID the second-order one.",
-        **state.bound("order", show=lambda order: KINDS[order - 1], read=lambda shown: KINDS.index(shown) + 1),
-    )
+    if state.value("rule") == "simc":
+        row.segmented_control(
+            "Controller",
+            KINDS,
+            help="PI takes the first-order model, PID the second-order one.",
+            **state.bound("order", show=lambda order: KINDS[order - 1], read=lambda shown: KINDS.index(shown) + 1),
+        )
     under = st.container()
     design_number(
         "b",
@@ -111,14 +112,12 @@ def structure() -> None:
 
 def settings(study: Study) -> None:
     """The controller in the form chosen, typeset, and as text to copy with all its digits."""
-    form = state.value("form")
+    asked = state.value("form")
     form_control()
-    try:
-        shown = study.controller.in_form(form)
-    except FormError as error:
-        st.info(f"No {form} form: {error}")
-        return
-    sheet = state.design_now().sheet
+    form = form_shown(study.controller, asked)
+    if form != asked:
+        st.caption(f"This controller has no {asked} form: shown in the {form} one.")
+    shown, sheet = study.controller.in_form(form), state.design_now().sheet
     st.markdown(f"$C(s) = {formula(shown, form)}$")
     st.html(settings_html(shown, sheet))
     copyable(as_text(study.controller, form, sheet), "settings_text")
@@ -139,11 +138,12 @@ def settings_html(controller: Controller, sheet: Sheet) -> str:
 def _presets(study: Study) -> None:
     """Multiples of theta, and the named choices of the literature; each says its tau_c."""
     with st.container(key="multiples"):
-        for factor, value in tau_c_multiples(study.model).items():
+        for factor, value in multiples_of(study.tuning.rule, study.model).items():
             name = "θ" if factor == 1 else f"{number(factor)} θ"
-            _choice(f"multiple_{number(factor)}", name, value, study, "" if factor == 1 else f"{factor:g}theta")
+            usual = math.isclose(value, usual_tau_c(study.tuning.rule, study.model), rel_tol=SAME)
+            _choice(f"multiple_{number(factor)}", name, value, study, "" if usual else f"{factor:g}theta")
     with st.expander("Choices of the literature"), st.container(key="presets"):
-        for name, value in tau_c_presets(study.model).items():
+        for name, value in presets_of(study.tuning.rule, study.model).items():
             _choice(f"preset_{name}", name, value, study, "" if name == "tight" else name)
     st.caption(model_in_use(study.model))
 

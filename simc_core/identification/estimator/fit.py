@@ -42,7 +42,7 @@ class Fit:
 
 
 def fitted(structure: Structure, records: list[Record], drift: bool, start: bool, floor: float) -> Fit:
-    """The structure fitted from scratch.
+    """The structure fitted from scratch; of more than 2500 samples, on means of neighbours.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def fitted(structure: Structure, records: list[Record], drift: bool, start: bool
 def continued(
     structure: Structure, records: list[Record], drift: bool, start: bool, floor: float, begin: list[Array]
 ) -> Fit:
-    """The structure fitted from the points x in `begin`, from which the others follow."""
+    """The structure fitted from the points x in `begin`; of more than 2500 samples, on means of neighbours."""
     whole = Problem(structure, records, drift, start)
     small = [record.reduced(SOME) for record in records]
     best = _best_of(Problem(structure, small, drift, start), begin, records[0].interval)
@@ -80,7 +80,12 @@ def continued(
         whole = Problem(structure, records, drift, start)
         small = [record.reduced(SOME) for record in records]
         best = refined(Problem(structure, small, drift, start), best.x, 10)
-    return Fit(whole, refined(whole, best.x, 3 if whole.size > SOME else 10))
+    return Fit(whole, whole.at(best.x))
+
+
+def polished(fit: Fit) -> Fit:
+    """The fit brought to the minimum over all samples, where it was found on means of them."""
+    return Fit(fit.problem, refined(fit.problem, fit.point.x, 2)) if fit.problem.size > SOME else fit
 
 
 def _best_of(problem: Problem, begin: list[Array], interval: float) -> Point:

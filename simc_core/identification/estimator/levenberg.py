@@ -5,7 +5,7 @@ import numpy as np
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.estimator.problem import Point, Problem
 
-SETTLED = 1e-9  # relative gain of a round that is no gain
+SETTLED = 1e-8  # relative gain of a round that is no gain
 
 
 def refined(problem: Problem, x: Array, rounds: int = 30) -> Point:
@@ -22,13 +22,13 @@ def refined(problem: Problem, x: Array, rounds: int = 30) -> Point:
         size = np.diag(square).copy()
         size[size <= 0] = 1.0
         better = None
-        for _ in range(8):
+        for _ in range(5):
             step = np.linalg.solve(square + np.diag(damping * size + held), np.where(held, 0.0, gradient))
             tried = problem.at(np.clip(best.x + step, problem.low, problem.high))
             if tried.cost < best.cost:
                 better = tried
                 break
-            damping *= 6
+            damping *= 8
         if better is None:
             return best
         gain = best.cost - better.cost

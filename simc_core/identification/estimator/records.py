@@ -8,6 +8,7 @@ from simc_core.identification.estimator.held_input import Array, HeldInput
 from simc_core.identification.estimator.outliers import spikes
 from simc_core.identification.trend import Trend
 
+OFTEN = 0.3  # moves of OP for each sample, from where it moves all the time
 MANY_MOVES = 100  # more than these, and a mean may take in a move of OP: they are everywhere
 
 

@@ -26,7 +26,7 @@ POINTS = 2000  # of the record, about
 class Relay:
     """A relay test.
 
-    Parameters
+    Attributes
     ----------
     t, y, u : array, shape (n,)
         The record from rest; u as it is from each instant on.
@@ -62,7 +62,7 @@ def relay_test(plant: Plant, amplitude: float, hysteresis: float = 0.0, bias: fl
     hysteresis : float
         The relay switches where y passes +hysteresis upwards and -hysteresis downwards, >= 0.
     bias : float
-        |bias| < amplitude: unequal levels show the gain, k = mean(y)/mean(u) over a period.
+        abs(bias) < amplitude: unequal levels show the gain, k = mean(y)/mean(u) over a period.
 
     Returns
     -------
@@ -144,6 +144,16 @@ def relay_from_trend(trend: Trend) -> Relay:
     References
     ----------
     [AH84], [B17]
+
+    Examples
+    --------
+    The record of a simulated test says what the test said:
+
+    >>> from simc_core import Plant, Trend, relay_from_trend, relay_test
+    >>> test = relay_test(Plant(1, 0.3, (10, 1)), amplitude=1)
+    >>> found = relay_from_trend(Trend(test.t, test.y, test.u))
+    >>> round(found.Pu / test.Pu, 2), round(found.Ku / test.Ku, 2)
+    (1.0, 1.0)
     """
     trend = check_trend(trend)
     changed = 1 + np.flatnonzero(np.diff(trend.u))

@@ -26,10 +26,10 @@ def covariance(fit: Fit, noise: Noise, floor: float) -> Array:
         Standard deviation below which the noise is not believed.
     """
     freedom = degrees_of_freedom(fit, noise)
-    return spread_of(bounded(fit, noise, floor), fit.problem.parts, noise, floor)[0] * (freedom + fit.free) / freedom
+    return _spread(_bounded(fit, noise, floor), fit.problem.parts, noise, floor) * (freedom + fit.free) / freedom
 
 
-def bounded(fit: Fit, noise: Noise, floor: float) -> Array:
+def _bounded(fit: Fit, noise: Noise, floor: float) -> Array:
     """The jacobian with a row for each of x: theta lies in its bounds, lags within a few powers of e of what is found.
 
     Without them a lag far below the sampling interval, which no sample shows, would spoil the errors of the others.
@@ -41,8 +41,8 @@ def bounded(fit: Fit, noise: Noise, floor: float) -> Array:
     return np.concatenate([fit.jacobian, rows])
 
 
-def spread_of(jacobian: Array, parts: list[slice], noise: Noise, floor: float) -> tuple[Array, Array]:
-    """Covariance V, shape (p, p), and H, the inverse of J'J, for the columns of `jacobian`, shape (n, p)."""
+def _spread(jacobian: Array, parts: list[slice], noise: Noise, floor: float) -> Array:
+    """Covariance, shape (p, p), for the columns of `jacobian`, shape (n, p)."""
     scale = np.sqrt(np.sum(jacobian**2, axis=0))
     scale = np.where(scale > 0, scale, 1.0)
     jacobian = jacobian / scale
@@ -56,8 +56,7 @@ def spread_of(jacobian: Array, parts: list[slice], noise: Noise, floor: float) -
             own = jacobian[part]
             across += own.T @ lfilter([0.0, r], [1.0, -r], own, axis=0)
         middle = square + across + across.T
-    both = np.outer(scale, scale)
-    return inverse @ middle @ inverse * max(noise.sigma, floor) ** 2 / both, inverse / both
+    return inverse @ middle @ inverse * max(noise.sigma, floor) ** 2 / np.outer(scale, scale)
 
 
 def degrees_of_freedom(fit: Fit, noise: Noise) -> float:

@@ -4,16 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.identification.estimator.fit import Fit, continued, fitted
+from simc_core.identification.estimator.fit import Fit, continued, fitted, polished
 from simc_core.identification.estimator.held_input import Array
-from simc_core.identification.estimator.records import Record
+from simc_core.identification.estimator.records import OFTEN, Record
 from simc_core.identification.estimator.structures import Structure
 from simc_core.identification.judgement.covariance import covariance, degrees_of_freedom, quantised
 from simc_core.identification.judgement.noise import Noise, noise_of
 
 MARGIN = 2.0  # of the criterion, for each parameter of drift and start
 WORSE = 2.0  # times the deviation, at which what is not plausible is taken after all
-OFTEN = 0.3  # moves of OP for each sample, from where it moves all the time
 BEFORE = 4  # samples before the first move from which an unsettled start can be told
 
 
@@ -72,7 +71,7 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
     for one in drifts:
         for other in begins:
             if (one, other) not in fits:
-                near = [fit.point.x for fit in fits.values()]
+                near = [first.point.x, list(fits.values())[-1].point.x]
                 fits[one, other] = continued(structure, first.problem.records, one, other, floor, near)
     return _weighed(fits, floor, step)
 
@@ -95,7 +94,8 @@ def _weighed(fits: dict[tuple[bool, bool], Fit], floor: float, step: float) -> E
     soft = {key: loss[key] + 2 * fit.free for key, fit in fits.items()}
     least = min(soft.values())
     weight = {key: float(np.exp(-(value - least) / 2)) for key, value in soft.items()}
-    fit, noise = fits[chosen], noises[chosen]
+    fit = fits[chosen] = polished(fits[chosen])
+    noise = noises[chosen] = noise_of(fit)
     values = _values(fit)
     spread, total = np.zeros((values.size, values.size)), 0.0
     for key, other in fits.items():

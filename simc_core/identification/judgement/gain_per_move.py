@@ -1,15 +1,21 @@
 """One gain for each move of OP, dead time and lags in common: a linear process has the same for all [D07]."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from simc_core.identification.estimator.fit import Fit
-from simc_core.identification.estimator.held_input import Array
-from simc_core.identification.judgement.covariance import degrees_of_freedom, spread_of
-from simc_core.identification.judgement.noise import Noise
+from simc_core.identification.estimator.fit import SOME, Fit, fitted
+from simc_core.identification.estimator.held_input import Array, HeldInput, Located
+from simc_core.identification.estimator.levenberg import refined
+from simc_core.identification.estimator.problem import Problem
+from simc_core.identification.estimator.structures import Structure
+from simc_core.identification.judgement.covariance import covariance
+from simc_core.identification.judgement.noise import noise_of
 from simc_core.identification.moves import Move
 
+POOR = 0.9  # share below which a fit is no place to begin from
+MAINLY = 0.5  # share of all that OP moves
+AFTER = 5  # samples of a response, without which it shows nothing
 MOST = 12  # moves for which this is asked
 
 
@@ -34,43 +40,54 @@ class GainOfMove:
     standard_error: float
 
 
-def gains_per_move(fit: Fit, noise: Noise, moves: tuple[Move, ...], floor: float) -> tuple[GainOfMove, ...]:
-    """The gain of each of 2 to 12 moves that are all moves of one record; else ().
+def gains_per_move(fit: Fit, share: float, moves: tuple[Move, ...], floor: float) -> tuple[GainOfMove, ...]:
+    """The gain of each of 2 to 12 moves that are all moves of one record, dead time and lags fitted anew; else ().
 
     Parameters
     ----------
     fit : Fit
-        Of one record.
-    noise : Noise
+        Of one record, of a structure with one gain.
+    share : float
+        1 - |residuals|/|PV - mean| of it.
     moves : tuple of Move
         Those of the record.
     floor : float
         Standard deviation below which the noise is not believed.
     """
     problem, record = fit.problem, fit.problem.records[0]
-    inside = _covering(moves, record.held.s.size)
-    if len(problem.records) > 1 or not 2 <= len(inside) <= MOST:
+    changes = record.held.s
+    seen = record.span - fit.point.x[0] - AFTER * record.interval
+    inside = _covering(tuple(move for move in moves if changes[move.first] < seen), changes.size)
+    if len(problem.records) > 1 or len(problem.structure.gains) > 1 or not 2 <= len(inside) <= MOST:
         return ()
-    at = record.t - fit.point.x[0]
-    lags = problem.lags(fit.point.x)
-    count = len(problem.structure.gains)
-    columns: list[Array] = []
-    for move in inside:
-        held = record.held.one_move(move.first, move.last)
-        parts = problem.structure.columns(held, held.locate(at), lags)
-        columns.append(np.asarray(np.stack(parts, axis=1) @ fit.point.beta[:count] / fit.point.beta[0]))
-    whole = fit.jacobian
-    unlinear = fit.point.x.size
-    own = np.stack(columns, axis=1) * problem.root_weight[:, None]
-    jacobian = np.concatenate([own, whole[:, :unlinear], whole[:, unlinear + count :]], axis=1)
-    spread, inverse = spread_of(jacobian, problem.parts, noise, floor)
-    step = inverse @ (jacobian.T @ fit.point.residual)
-    freedom = degrees_of_freedom(fit, noise)
-    errors = np.sqrt(np.diag(spread) * (freedom + fit.free) / freedom)
+    if sum(abs(move.size) for move in inside) < MAINLY * float(np.abs(record.held.d).sum()):
+        return ()  # OP moves all the time
+    shape = _split(problem.structure, record.held, inside)
+    records = [record.reduced(SOME)]
+    if share < POOR:  # one gain for all did not fit: dead time and lags may be anywhere
+        apart = fitted(shape, records, False, False, floor)
+    else:
+        split = Problem(shape, records, problem.degree > 0, problem.start)
+        apart = Fit(split, refined(split, fit.point.x, 8))
+    own = noise_of(apart)
+    first = apart.point.x.size
+    errors = np.sqrt(np.diag(covariance(apart, own, floor)))[first:]
+    gains = apart.point.beta[: len(inside)].tolist()
     return tuple(
-        GainOfMove(move.t, move.before, move.after, float(fit.point.beta[0] + step[i]), float(errors[i]))
-        for i, move in enumerate(inside)
+        GainOfMove(move.t, move.before, move.after, gain, error)
+        for move, gain, error in zip(inside, gains, errors[: len(inside)].tolist(), strict=True)
     )
+
+
+def _split(structure: Structure, held: HeldInput, moves: tuple[Move, ...]) -> Structure:
+    """The structure with a column for each move."""
+    alone = [held.one_move(move.first, move.last) for move in moves]
+
+    def columns(whole: HeldInput, at: Located, lags: Array) -> list[Array]:
+        t = np.where(at.last > 0, whole.s[np.maximum(at.last - 1, 0)] + at.since, -np.inf)
+        return [column for one in alone for column in structure.columns(one, one.locate(t), lags)]
+
+    return replace(structure, gains=tuple(f"{structure.gains[0]} {i}" for i in range(len(moves))), columns=columns)
 
 
 def _covering(moves: tuple[Move, ...], changes: int) -> tuple[Move, ...]:

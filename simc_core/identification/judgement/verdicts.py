@@ -24,7 +24,8 @@ def verdicts(estimate: Estimate, half_width: float, moves: tuple[GainOfMove, ...
     fit : float
         1 - |residuals|/|PV - mean|.
     """
-    found = [*_poor(fit), *_size(estimate), *_disturbed(estimate), *_disagree(moves)]
+    differ = _disagree(moves)
+    found = [*differ, *_poor(fit), *([] if differ else _size(estimate)), *_disturbed(estimate)]
     return (*found, *_settled(estimate), *_dead_time(estimate, half_width), *_lags(estimate), *_along(estimate))
 
 
@@ -93,7 +94,11 @@ def _settled(estimate: Estimate) -> list[str]:
             "ratio; compare with an integrating model."
         ]
     few = all(record.held.s.size <= MOST for record in estimate.fit.problem.records)
-    if error > 0.3 or (few and lag > after and error > 0.1):
+    if error <= 0.1 and few and lag > after:
+        return [
+            "PV had not settled when OP moved again or the trend ended: gain and lag rest on the shape of the curve."
+        ]
+    if error > 0.3 or (few and lag > after):
         return [
             "PV has not settled: gain and lag are uncertain, but k/tau1 and theta are known better, and SIMC needs "
             "only these where tau1 > 4 (tau_c + theta)."

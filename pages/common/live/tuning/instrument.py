@@ -33,9 +33,10 @@ def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     held.subject, held.end = subject, float(grid.t[-1])
     name = table.table_name(subject, grid, pins)
     try:
-        message = held.message("tuning", name, lambda: table.table(subject, grid, pins, name))
+        with st.spinner("Computing what the slider shows"):
+            message = held.message("tuning", name, lambda: table.table(subject, grid, pins, name))
     except InvalidParameter as error:
-        st.warning(f"Nothing can be dragged here, the other views show this design. {told(str(error))}")
+        st.warning(f"Nothing can be dragged here; *Bode of L* and *Compare* show this design. {told(str(error))}.")
         return
     answers = components.show(components.tuning, KEY, message, _take)
     components.message(
@@ -72,5 +73,5 @@ def _for_Ms(subject: table.Subject, typed: str) -> float:
     limit = read_number("Ms", typed)
     if isinstance(subject.model, UnstableDelay):
         raise InvalidParameter("tau_c cannot be sought for an Ms here: the rule of an unstable pole knows one tau_c")
-    low, high, *_ = table.bounds(subject.model)
+    low, high, *_ = table.bounds(subject)
     return smallest(lambda tau_c: margins(subject.loop(tau_c)).Ms, limit, low, high)

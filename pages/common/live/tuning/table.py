@@ -11,7 +11,7 @@ from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
-from pages.common.parts.settings_text import UNITS, sizes
+from pages.common.parts.settings_text import UNITS, form_shown, sizes
 from pages.common.session.design import Excitation, Tuning
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
@@ -22,7 +22,8 @@ from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import Loop
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.plants.plant import Plant
-from simc_core.rules.simc import default_tau_c, simc, tau_c_presets
+from simc_core.rules.simc import default_tau_c
+from simc_core.rules.simc_family import presets_of, settings_of
 from simc_core.simulation import simulate
 from simc_core.simulation.horizon import times
 from simc_core.studies.sweep import MARGINS, METRICS, Sweep, sweep, time_curves
@@ -111,8 +112,10 @@ class Subject:
     form: str
 
     def controller(self, tau_c: float) -> Controller:
-        """SIMC at tau_c, with set-point weight and filter."""
-        return simc(self.model, tau_c).with_filter(self.tuning.filter).with_weight(self.tuning.b)
+        """The rule at tau_c, with set-point weight and filter."""
+        return (
+            settings_of(self.tuning.rule, self.model, tau_c).with_filter(self.tuning.filter).with_weight(self.tuning.b)
+        )
 
     def loop(self, tau_c: float) -> Loop:
         """The loop round the full plant."""
@@ -120,15 +123,14 @@ class Subject:
 
     def swept(self, tau_c: np.ndarray, grid: "Grid") -> Sweep:
         """Everything at all tau_c."""
-        b, ratio = self.tuning.b, self.tuning.filter
-        return sweep(self.plant, self.model, tau_c, grid.t, grid.omega, b, ratio, grid.load, grid.ramps)
+        b, ratio, rule = self.tuning.b, self.tuning.filter, self.tuning.rule
+        return sweep(self.plant, self.model, tau_c, grid.t, grid.omega, b, ratio, grid.load, grid.ramps, rule)
 
 
 def subject_of(plant: Plant, present: Study, form: str) -> Subject:
-    """The subject of the study; a form that does not exist for this controller gives way to the parallel one."""
-    if not present.controller.has_form(form):
-        form = "parallel"
-    return Subject(plant, present.model, replace(present.tuning, tau_c=None, speed=""), form)
+    """The subject of the study, in a form that its controller has."""
+    shown = form_shown(present.controller, form)
+    return Subject(plant, present.model, replace(present.tuning, tau_c=None, speed=""), shown)
 
 
 def grid_of(subject: Subject, present: Study, excitation: Excitation, shown: float | None = None) -> Grid:
@@ -136,7 +138,7 @@ def grid_of(subject: Subject, present: Study, excitation: Excitation, shown: flo
 
     The frequencies are those of one reference design, so that they do not change with tau_c.
     """
-    return grid_around(present.loop, [subject.loop(bounds(subject.model)[2]).L], excitation, shown)
+    return grid_around(present.loop, [subject.loop(bounds(subject)[2]).L], excitation, shown)
 
 
 def grid_around(loop: Loop, curves: Sequence[Factored], excitation: Excitation, shown: float | None = None) -> Grid:
@@ -150,9 +152,10 @@ def grid_around(loop: Loop, curves: Sequence[Factored], excitation: Excitation, 
     return Grid(t, load, omega_grid(curves), excitation)
 
 
-def bounds(model: Model) -> tuple[float, float, float, str]:
+def bounds(subject: Subject) -> tuple[float, float, float, str]:
     """low, high of tau_c on the slider, the length of 1 on its scale, and what that is called."""
-    presets = tau_c_presets(model)
+    model = subject.model
+    presets = presets_of(subject.tuning.rule, model)
     unit = default_tau_c(model)
     high = max(LONGEST * unit, *presets.values(), 0.0)
     return SHORTEST * unit, high, unit, "θ" if model.theta else ""
@@ -160,7 +163,7 @@ def bounds(model: Model) -> tuple[float, float, float, str]:
 
 def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name: str) -> bytes:
     """The table as bytes, under its name."""
-    low, high, unit, symbol = bounds(subject.model)
+    low, high, unit, symbol = bounds(subject)
     nodes, found = rows(subject, grid)
     names = list(found.controllers[0].in_form(subject.form).settings)
     header = {
@@ -184,7 +187,7 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
         "unstable": unstable_ranges(
             nodes.tau_c, found.stable, lambda each: stability(subject.loop(each)).verdict == "stable"
         ),
-        "presets": list(tau_c_presets(subject.model).items()),
+        "presets": list(presets_of(subject.tuning.rule, subject.model).items()),
         "pins": [{"name": letter, "metrics": figures(judged(each, grid.omega))} for letter, each in pins],
     }
     blocks = curves(found, grid)
@@ -200,7 +203,7 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
 
 def rows(subject: Subject, grid: Grid) -> tuple[Rows, Sweep]:
     """Rows close enough for reading between them, and everything there."""
-    low, high, *_ = bounds(subject.model)
+    low, high, *_ = bounds(subject)
     if isinstance(subject.model, UnstableDelay):  # the rule knows one tau_c: two rows of the same
         nodes = Rows(np.log([0.99, 1.01]) + math.log(subject.model.theta), (0, 1))
         return nodes, subject.swept(np.full(2, subject.model.theta), grid)
@@ -210,7 +213,7 @@ def rows(subject: Subject, grid: Grid) -> tuple[Rows, Sweep]:
         unit = time_curves(subject.plant, controllers, grid.t, grid.load, grid.ramps)
         return list(np.einsum("nsit,i->snt", unit, grid.heights))
 
-    nodes, _ = refined(first_rows(low, high, kinks(subject.model)), compute)
+    nodes, _ = refined(first_rows(low, high, kinks(subject.model, subject.tuning.rule)), compute)
     return nodes, subject.swept(nodes.tau_c, grid)
 
 

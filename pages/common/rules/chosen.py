@@ -1,0 +1,92 @@
+"""The rule that was picked: a word on it, its responses beside the optimum, and what can be done with it."""
+
+import streamlit as st
+
+from pages.common.parts.panel import show
+from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.symbols import sentence
+from pages.common.rules import words
+from pages.common.rules.curves import PRESENT_NAME
+from pages.common.rules.table import Question, best_beside, title_of
+from pages.common.session import state
+from pages.common.session.compared import OPTIMAL
+from pages.common.session.design import MOST_PINS, Design, Excitation
+from pages.common.shell import header
+from pages.common.studies.single import Study, study_of_settings, time_responses
+from simc_core import RULES
+from simc_core.controllers.forms import Controller
+from simc_core.figures import input_figure, output_figure
+from simc_core.notation import latex
+from simc_core.published.sources import SOURCES
+from simc_core.studies.comparison import Row
+
+HEIGHT = 190  # px
+
+
+def word(row: Row, question: Question) -> None:
+    """Name and source, settings, what the rule was made for, and how it does here."""
+    rule = RULES.get(row.key)
+    source = rule.source.strip("[]") if rule else ""
+    st.markdown(f"**{title_of(row)}**" + (f", {source}" if rule else ""), help=SOURCES.get(source) if rule else None)
+    if row.controller is None:
+        st.info(sentence(row.refusal))
+    else:
+        st.markdown(f"$C(s) = {latex(row.controller)}$")
+    best = best_beside(question, row.kind, row.Mst) if row.Mst > 1 else None
+    said = [words.MADE_FOR[row.key], words.here(row, best, question), words.robustness(row, question)]
+    if rule and not row.in_domain and row.controller is not None:
+        said.append(f"Outside its domain: {sentence(rule.domain)}.")
+    said.append(words.IN_CIRCULATION.get(row.key, ""))
+    st.markdown(" ".join(filter(None, said)))
+
+
+def responses(row: Row, question: Question, design: Design, present: Study | None) -> None:
+    """y and u of the rule, the optimum with the same peak, and my design."""
+    if row.controller is None:
+        return
+    found = [(title_of(row), study_of_settings(question.plant, row.controller))]
+    best = best_beside(question, row.kind, row.Mst) if row.Mst > 1 and row.key != OPTIMAL else None
+    if best:
+        found.append((f"best {row.kind}", study_of_settings(question.plant, best.controller)))
+    if present:
+        found.append((PRESENT_NAME, present))
+    excitation = design.excitation if present else Excitation()
+    names, records = zip(*found, strict=True)
+    times = list(zip(names, time_responses(list(records), excitation), strict=True))
+    stable = records[0].stable
+    show(output_figure(times, HEIGHT, stable), "rules_y", "Output y of the rule, of the optimum and of my design")
+    show(input_figure(times, HEIGHT, stable), "rules_u", "Input u of the rule, of the optimum and of my design")
+
+
+def actions(row: Row, question: Question, design: Design) -> None:
+    """Pin the rule to the tuning page, or take it over as the controller."""
+    if row.controller is None:
+        return
+    own_plant = question.plant == design.plant
+    full = len(design.pins) >= MOST_PINS
+    pin, take = st.columns(2)
+    pin.button(
+        "Pin" if not full else "Pin (4 of 4 used)",
+        key="rules_pin",
+        width="stretch",
+        disabled=full or not own_plant or row.controller in design.pins,
+        help="Set it aside on the tuning page, to compare it with your design there.",
+        on_click=lambda: state.change(pins=(*design.pins, row.controller)),
+    )
+    if take.button(
+        "Take over" if own_plant else "Take over with this plant",
+        key="rules_take",
+        width="stretch",
+        type="primary",
+        help="These settings become my settings on the tuning page."
+        + ("" if own_plant else " The plant begins another loop."),
+    ):
+        with explain_refusal():
+            _take(row.controller, question, own_plant)
+            header.go("tuning")
+
+
+def _take(controller: Controller, question: Question, own_plant: bool) -> None:
+    if not own_plant:
+        state.begin_loop(question.plant, mine=True)
+    state.change(own=controller, controller="own")

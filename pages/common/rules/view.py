@@ -1,0 +1,213 @@
+"""The page of rules: what is asked, the table as it comes, two pictures, and the rule that was picked."""
+
+from collections.abc import Sequence
+
+import streamlit as st
+
+from pages.common.parts.number_field import design_number
+from pages.common.parts.panel import show
+from pages.common.rules import curves
+from pages.common.rules.table import Question, frame, key_of, rows_of, shown
+from pages.common.session import state
+from pages.common.session.compared import KINDS, OPTIMAL, PRESENT, USUAL
+from pages.common.session.design import Design
+from pages.common.studies.single import Study
+from simc_core.figures import trade_off_figure, tuning_plane_figure
+from simc_core.figures.rules import Point
+from simc_core.notation import latex, plain
+from simc_core.studies.comparison import Row
+from simc_core.studies.tuning_plane import tuning_plane
+
+CRITERIA = {"load": "IAE load", "setpoint": "IAE set point", "J": "J"}
+AXES = {
+    "load": "IAE load  [unit of y · time unit]",
+    "setpoint": "IAE set point  [unit of y · time unit]",
+    "J": "J  [–]",
+}
+ROBUSTNESS = {False: "as published", True: "at equal Mst"}
+EQUAL = 1.59
+AT_ONCE = 4  # rows between two pictures of the table while it grows
+TALL, HEIGHT, ROW, WIDE = 340, 380, 27, 185  # px
+PICTURES = ("Error over Mst", "Kc and τI")
+J_HELP = (
+    "J is the mean of the IAE of set point and of load, each over that of the PI controller that is best for it at "
+    "$M_s$ = 1.59 [SG12]."
+)
+
+
+def ask(design: Design) -> None:
+    """What is compared: plant, controllers, robustness, criterion, filter."""
+    with st.container(key="rules_question", horizontal=True, vertical_alignment="bottom", gap="small"):
+        plants = {PRESENT: "the plant of this design"} | {
+            name: f"{plain(usual.plant)}, {usual.name}" for name, usual in USUAL.items()
+        }
+        st.selectbox("Plant", list(plants), format_func=plants.get, width=260, **state.bound("compared_plant"))
+        st.segmented_control("Controllers", KINDS, required=True, **state.bound("compared_kind"))
+        st.segmented_control(
+            "Rules",
+            list(ROBUSTNESS),
+            format_func=ROBUSTNESS.get,
+            required=True,
+            help="As published, or each made as robust as the others: its own parameter, or else the dead time in its "
+            "formula, is multiplied by the F nearest to 1 with which Mst = max(Ms, Mt) is the one asked for.",
+            **state.bound(
+                "compared_Ms",
+                key="rules_equal",
+                show=lambda Ms: Ms is not None,
+                read=lambda equal: EQUAL if equal else None,
+                optional=True,
+            ),
+        )
+        if design.compared.Ms is not None:
+            design_number("compared_Ms", "Mst", width=64)
+        st.segmented_control(
+            "Best for",
+            list(CRITERIA),
+            format_func=CRITERIA.get,
+            required=True,
+            help=J_HELP,
+            **state.bound("compared_criterion"),
+        )
+        if design.compared.kind != "PI":
+            design_number(
+                "compared_tau_F",
+                "τF",
+                quantity="time",
+                optional=True,
+                placeholder="0.1 θ",
+                width=76,
+                help="Filter of all controllers with derivative action; empty for a tenth of the effective dead time.",
+            )
+
+    if design.compared.plant != PRESENT:
+        plant = USUAL[design.compared.plant].plant
+        st.markdown(f"Compared on $G(s) = {latex(plant)}$, not on the plant of this design.")
+
+
+def open_asked(view: str) -> None:
+    """The picture that a link names."""
+    if view == "plane":
+        state.set_widget("rules_picture", PICTURES[1])
+
+
+def table(question: Question) -> list[Row]:
+    """All rows; while they are computed the table grows."""
+    made, rows = rows_of(question), []
+    sheet = state.design_now().sheet
+    bar, place, growing = st.empty(), st.empty(), not made.complete
+    for row in made:
+        rows.append(row)
+        if growing and len(rows) % AT_ONCE == 0:
+            bar.progress(len(rows) / question.total, f"{len(rows)} of {question.total} rules")
+            place.dataframe(shown(frame(rows, question, sheet)), hide_index=True, height=TALL, row_height=ROW)
+    bar.empty()
+    state.remember("rules_rows", [key_of(row) for row in rows])
+    found = frame(rows, question, sheet)
+    place.dataframe(
+        shown(found),
+        hide_index=True,
+        height=TALL,
+        row_height=ROW,
+        key="rules_table",
+        on_select=_picked_in_table,
+        selection_mode="single-row",
+        column_config=_columns(list(found.columns)),
+        placeholder="–",
+        alt="Tuning rules: settings in ideal form, Mst, errors and distance to the optimum",
+    )
+    return rows
+
+
+HELP = {
+    "Kc": "Settings in ideal form.",
+    "Mst": "max(Ms, Mt) of the loop round the plant.",
+    "as published": "max(Ms, Mt) of the rule as published.",
+    "F": "The rule's own parameter, or the dead time in its formula, is multiplied by this.",
+    "J": J_HELP,
+    "behind": "How much the criterion is above that of the best controller of this kind with the same Mst.",
+    "TV load": "Total variation of u after a unit step of the load.",
+    "noise gain": "|C| at high frequency: Kc τD/τF, Kc for PI.",
+    "in domain": "Whether the source recommends the rule for this plant.",
+    "remark": "Why there is no loop, where there is none.",
+}
+
+
+def _columns(names: list[str]) -> dict:
+    config = {name: st.column_config.Column(help=HELP.get(name.split(" [")[0].split(",")[0])) for name in names}
+    config["rule"] = st.column_config.Column(pinned=True, width=WIDE)
+    return config
+
+
+def _picked_in_table() -> None:
+    rows = state.widget("rules_table")["selection"]["rows"]
+    known = state.memory("rules_rows", list)
+    if rows and rows[0] < len(known):
+        state.change(compared_rule=known[rows[0]])
+
+
+def _picked_in_picture(key: str) -> None:
+    for point in state.widget(key)["selection"]["points"]:
+        if point.get("customdata"):
+            state.change(compared_rule=str(point["customdata"]))
+
+
+def chosen_of(rows: Sequence[Row], design: Design) -> Row | None:
+    """The rule that is drawn: the one picked, else SIMC, else the first that has settings."""
+    by_key = {key_of(row): row for row in rows}
+    for key in (design.compared.rule, *(f"simc-{kind}" for kind in design.compared.kinds)):
+        if key in by_key and (by_key[key].controller or key == design.compared.rule):
+            return by_key[key]
+    return next((row for row in rows if row.controller and row.key != OPTIMAL), None)
+
+
+def picture(question: Question, rows: Sequence[Row], chosen: Row | None, present: Study | None) -> None:
+    """The error over the peak, or the settings of PI rules in their plane; a click picks a rule."""
+    which = st.segmented_control(
+        "Picture",
+        PICTURES,
+        default=PICTURES[0],
+        required=True,
+        key="rules_picture",
+        persist_state="session",
+        label_visibility="collapsed",
+    )
+    if which == PICTURES[0]:
+        points = curves.rule_points(question, rows)
+        figure = trade_off_figure(
+            curves.fronts(question),
+            curves.simc_over_tau_c(question),
+            points,
+            _of(points, chosen),
+            present and curves.trade_off_point(question, present),
+            AXES[question.criterion],
+            HEIGHT,
+        )
+        show(
+            figure,
+            "rules_trade_off",
+            "Error of each rule over its Mst, with the best that PI and PID can do",
+            _picked_in_picture,
+        )
+        st.caption("No controller of its kind lies below a front. Click a rule to draw it; double-click shows all.")
+        return
+    points = curves.plane_points(rows)
+    figure = tuning_plane_figure(
+        tuning_plane(question.plant),
+        curves.best_settings(question),
+        curves.simc_settings(question),
+        points,
+        _of(points, chosen),
+        present and curves.plane_point(present),
+        HEIGHT,
+    )
+    show(
+        figure,
+        "rules_plane",
+        "PI settings of each rule over contours of Mst and the limit of stability",
+        _picked_in_picture,
+    )
+    st.caption("PI controllers. Dashed: contours of Mst = max(Ms, Mt). Click a rule to draw it.")
+
+
+def _of(points: Sequence[Point], row: Row | None) -> Point | None:
+    return next((each for each in points if row is not None and each.key == key_of(row)), None)

@@ -1,0 +1,66 @@
+"""What the page of rules compares: the record, its defaults and its bounds. Pure Python, no streamlit."""
+
+from dataclasses import dataclass
+
+from pages.common.session.sheet import one_of
+from simc_core import RULES, Plant, checks
+from simc_core.optimal.criterion import CRITERIA
+
+KINDS = ("PI", "PID", "both")
+PRESENT, OPTIMAL = "", "optimal"  # the plant of the design; the rule that is no rule
+LOWEST_MS, HIGHEST_MS = 1.1, 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class Usual:
+    """A plant that rules are compared on in the literature. name: what it is."""
+
+    plant: Plant
+    name: str
+
+
+USUAL = {
+    "balanced": Usual(Plant(1, 1, (1,)), "lag and dead time alike"),
+    "lag": Usual(Plant(1, 1, (8,)), "lag dominant"),
+    "slow": Usual(Plant(1, 1, (20,)), "slow lag"),
+    "integrating": Usual(Plant(1, 1, integrators=1), "integrating"),
+    "four": Usual(Plant(1, 0, (1, 1, 1, 1)), "four lags"),
+    "two": Usual(Plant(1, 1, (6, 2)), "two lags"),
+    "delay": Usual(Plant(1, 1), "pure dead time"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """What is compared, and how.
+
+    plant: a key of USUAL, PRESENT for that of the design.   kind: of controllers.   tau_F: filter of those with
+    derivative action, None for 0.1 theta.   Ms: peak at which all are compared, None for rules as published.
+    criterion: what the optimum is best for.   rule: the one that is drawn, such as "simc-PI"; "" for SIMC.
+    """
+
+    plant: str = PRESENT
+    kind: str = "PI"
+    tau_F: float | None = None
+    Ms: float | None = None
+    criterion: str = "load"
+    rule: str = ""
+
+    def __post_init__(self):
+        put = object.__setattr__
+        one_of("compared_plant", self.plant, (PRESENT, *USUAL))
+        one_of("compared_kind", self.kind, KINDS)
+        one_of("compared_criterion", self.criterion, CRITERIA)
+        if self.rule:
+            key, _, kind = self.rule.partition("-")
+            one_of("compared_rule", key, (OPTIMAL, *RULES))
+            one_of("the kind of compared_rule", kind, KINDS[:2])
+        if self.tau_F is not None:
+            put(self, "tau_F", checks.positive_time("tau_F", self.tau_F))
+        if self.Ms is not None:
+            put(self, "Ms", checks.real("Ms", self.Ms, LOWEST_MS, HIGHEST_MS))
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """PI, PID or both."""
+        return KINDS[:2] if self.kind == "both" else (self.kind,)

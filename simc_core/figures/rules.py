@@ -1,0 +1,192 @@
+"""Tuning rules in two pictures: the error over the peak of |S| and |T|, and the settings of PI rules in their plane."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from simc_core.figures import palette
+from simc_core.figures.palette import Figure, Trace
+from simc_core.notation import number
+from simc_core.studies.tuning_plane import TuningPlane
+
+PEAK = "Mst = max(Ms, Mt)  [–]"
+STYLES = {"PI": (palette.Y, "circle", "solid"), "PID": (palette.REDUCED, "diamond", "dash")}
+WIDEST = 4.0  # peaks that are shown at first
+HIGHEST = 8.0  # values that are shown at first, over the smallest
+ROOM = 1.08
+SIZE = 9  # px
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """A controller in a picture. key: what a click on it tells; "" for none.   kind: "PI" or "PID"."""
+
+    key: str
+    name: str
+    kind: str
+    x: float
+    y: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Path:
+    """A line of controllers: "best PI", "SIMC over tau_c"."""
+
+    name: str
+    kind: str
+    x: np.ndarray
+    y: np.ndarray
+
+
+def trade_off_figure(
+    fronts: Sequence[Path],
+    paths: Sequence[Path],
+    points: Sequence[Point],
+    chosen: Point | None,
+    present: Point | None,
+    title: str,
+    height: int | None = None,
+) -> Figure:
+    """The error over max(Ms, Mt): nothing lies below the fronts. title: of the error, with its unit."""
+    traces = [
+        palette.line(each.x, each.y, each.name, STYLES[each.kind][0], STYLES[each.kind][2], 2.4, hovertemplate=HOVER)
+        for each in fronts
+    ]
+    traces += [_path(each) for each in paths]
+    traces += [*_points(points, "Mst %{x:.4g}, error %{y:.4g}"), *_marks(chosen, present)]
+    shown = [each for each in (*points, present) if each is not None]
+    low, high, widest = _view(fronts, shown)
+    return palette.figure(
+        traces,
+        palette.axis(PEAK, range=[1.0, widest]),
+        palette.axis(title, type="log", range=[math.log10(low), math.log10(high)]),
+        height,
+        hovermode="closest",
+    )
+
+
+def tuning_plane_figure(
+    plane: TuningPlane,
+    best: Path,
+    path: Path,
+    points: Sequence[Point],
+    chosen: Point | None,
+    present: Point | None,
+    height: int | None = None,
+) -> Figure:
+    """PI settings over the limit of stability and contours of max(Ms, Mt). x: |Kc|, y: tau_I of all points."""
+    low, high = float(plane.tau_I[0]), float(plane.tau_I[-1])
+    limit = np.clip(plane.limit, low, high)
+    below = np.concatenate([plane.Kc, plane.Kc[[-1, 0]]]), np.concatenate([limit, [low, low]])
+    fill = {"fill": "toself", "fillcolor": palette.ALARM_BAND, "hoverinfo": "skip", "showlegend": False}
+    reached = np.isfinite(plane.limit)
+    traces = [
+        palette.line(*below, "not stable", palette.ALARM_BAND, "solid", 0.0) | fill,
+        palette.line(
+            plane.Kc[reached], plane.limit[reached], "limit of stability", palette.ALARM, "solid", 1.6, hoverinfo="skip"
+        ),
+    ]
+    notes = []
+    for level, lower, upper in plane.contours:
+        found = np.isfinite(upper)
+        traces.append(_contour(level, upper[found], plane.tau_I[found]))
+        at = int(np.flatnonzero(found)[-1])
+        notes.append(_label(f"{level:g}", float(upper[at]), float(plane.tau_I[at])))
+        above = found & (lower > 0)
+        if above.any():
+            traces.append(_contour(level, lower[above], plane.tau_I[above]))
+    if best.x.size:
+        color, _, _ = STYLES["PI"]
+        traces.append(palette.line(best.x, best.y, best.name, color, "solid", 2.4, hovertemplate=HOVER))
+    traces += [_path(path)] if path.x.size else []
+    traces += [*_points(points, "Kc %{x:.4g}, τI %{y:.4g}"), *_marks(chosen, present)]
+    return palette.figure(
+        traces,
+        palette.axis(
+            "Kc  [unit of u / unit of y]", type="log", dtick="D2", range=[math.log10(x) for x in plane.Kc[[0, -1]]]
+        ),
+        palette.axis("τI  [time unit]", type="log", dtick="D2", range=[math.log10(low), math.log10(high)]),
+        height,
+        hovermode="closest",
+        annotations=notes,
+    )
+
+
+HOVER = "%{x:.4g}, %{y:.4g}"
+
+
+def _path(each: Path) -> Trace:
+    return palette.line(each.x, each.y, each.name, palette.U, "dot", 2.0, hovertemplate=HOVER)
+
+
+def _points(points: Sequence[Point], told: str) -> list[Trace]:
+    """One trace a kind; a click tells the key."""
+    traces = []
+    for kind, (color, symbol, _) in STYLES.items():
+        own = [each for each in points if each.kind == kind]
+        if own:
+            traces.append(
+                {
+                    "type": "scatter",
+                    "mode": "markers",
+                    "x": [each.x for each in own],
+                    "y": [each.y for each in own],
+                    "name": f"{kind} rules",
+                    "text": [each.name for each in own],
+                    "customdata": [each.key for each in own],
+                    "hovertemplate": f"<b>%{{text}}</b><br>{told}<extra></extra>",
+                    "marker": {"color": color, "symbol": symbol, "size": SIZE, "line": {"width": 0}},
+                    "selected": {"marker": {"opacity": 1}},
+                    "unselected": {"marker": {"opacity": 1}},
+                }
+            )
+    return traces
+
+
+def _marks(chosen: Point | None, present: Point | None) -> list[Trace]:
+    """A ring round the rule that is drawn, and a cross for the present design, both with their names."""
+    found = []
+    if present is not None:
+        cross = {"color": palette.U, "symbol": "x", "size": 10}
+        found.append(_mark(present, palette.U, marker=cross, position="bottom right"))
+    if chosen is not None:
+        ring = {"color": palette.ALARM, "symbol": "circle-open", "size": 17, "line": {"width": 2.5}}
+        found.append(_mark(chosen, palette.ALARM, marker=ring, position="top right"))
+    return found
+
+
+def _mark(point: Point, color: str, marker: dict, position: str) -> Trace:
+    return palette.marker(
+        point.x, point.y, point.name, color, point.name, position, marker=marker, hoverinfo="skip", cliponaxis=True
+    )
+
+
+def _contour(level: float, Kc: np.ndarray, tau_I: np.ndarray) -> Trace:
+    return palette.line(
+        Kc,
+        tau_I,
+        f"Mst {number(level)}",
+        palette.S,
+        "dash",
+        1.2,
+        hovertemplate=f"Mst {number(level)}<extra></extra>",
+        showlegend=False,
+    )
+
+
+def _label(text: str, x: float, y: float) -> dict:
+    """At the upper end of a contour; the axes are logarithmic."""
+    return palette.label(text, math.log10(x), math.log10(y), above=False) | {"xanchor": "center"}
+
+
+def _view(fronts: Sequence[Path], points: Sequence[Point]) -> tuple[float, float, float]:
+    """Least and largest value, and largest peak, that are shown at first."""
+    widest = min(max([2.0, *(each.x for each in points)]) * ROOM, WIDEST)
+    shown = [each.y for each in points if each.x <= widest]
+    values = np.array([*shown, *(y for each in fronts for y in each.y[each.x <= widest].tolist())])
+    if not values.size:
+        return 0.1, 10.0, widest
+    low = float(values.min())
+    return low / ROOM, min(float(values.max()), HIGHEST * low) * ROOM, widest
