@@ -148,7 +148,7 @@ def longest_sampling_period(loop: Loop, law: str = "backward", delay_scans: int 
 
 def _Ms(sampled: SampledLoop) -> float:
     values = sampled.sensitivity(sampled.angles)
-    return max(values.max(), *_peaks(sampled.sensitivity, sampled.angles, values)[1])
+    return float(max([values.max(), *_peaks(sampled.sensitivity, sampled.angles, values)[1]]))
 
 
 def _crossings(sampled: SampledLoop) -> Crossings:

@@ -175,3 +175,14 @@ def test_what_has_no_sampled_margins_is_refused():
         sampled_margins(PI.plant, 1.0)
     with pytest.raises(NotStable):
         longest_sampling_period(replace(PI, controller=SeriesPid(40, 8)))
+
+
+@pytest.mark.parametrize("theta", [0.0, 1.0])
+def test_a_period_is_found_where_S_has_no_peak_within(theta):
+    """P control of a lag, no dead time: |S| rises to its end at pi/h; Ms grows by 5 % there or nowhere."""
+    loop = Loop(Plant(1, theta, (5,)), SeriesPid(1, math.inf))
+    longest = longest_sampling_period(loop)
+    assert longest > 0
+    if longest < math.inf:
+        grown = sampled_margins(loop, longest).Ms / margins(loop).Ms
+        assert grown == pytest.approx(1.05, rel=1e-3)

@@ -303,8 +303,8 @@ PLACES: dict[str, tuple[str, str]] = {
     "d_time": ("excitation", "load_time"),
     "r_ramp": ("excitation", "setpoint_ramp"),
     "d_ramp": ("excitation", "disturbance_ramp"),
-    **{f"compared_{name}": ("compared", name) for name in ("plant", "kind", "tau_F", "Ms", "criterion", "rule")},
     **{f"r_{end}": ("excitation", f"setpoint_{end}") for end in ("low", "high", "rate")},
+    **{f"compared_{name}": ("compared", name) for name in ("plant", "kind", "tau_F", "Ms", "criterion", "rule")},
 }
 
 
