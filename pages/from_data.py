@@ -5,7 +5,6 @@ import streamlit as st
 from pages.common.from_data import experiments, models_view, record_view, source, tuning_view, understood
 from pages.common.from_data.graphical_view import graphical
 from pages.common.parts.foreign_text import told
-from pages.common.parts.refusals import explain_refusal
 from pages.common.parts.symbols import sentence
 from pages.common.shell import header
 
@@ -16,22 +15,22 @@ with controls:
     work = source.choose(design)
     if work is not None:
         understood.show(work)
-with shown, explain_refusal():
+with shown:
     if work is None:
         source.empty()
     elif work.trend is None:
         st.error(sentence(told(work.reading.refusal)))
     else:
         trend = work.trend
-        place = st.container()
+        figure = st.container()
         record_view.choose_part(trend, design)
         record_view.bad_pieces(trend, design)
-        part = work.part(design.record)
-        fits = models_view.fits_of(work, part, design)
+        part, why = work.part(design.record)
+        fits = models_view.fits_of(work, part, design, why)
         model = models_view.chosen_of(fits, design)
-        with place:
-            record_view.figure(work, trend, design, part, model)
-        if model is None:
+        with figure:
+            record_view.figure(trend, design, part, model)
+        if part is None or model is None:
             st.error(f"**No model.** {sentence(fits.why)}")
         else:
             models_view.ranking(fits, model, trend)

@@ -96,6 +96,6 @@ def policy(framed_by: str = "") -> str:
     origins = framed_by.split()
     for origin in origins:
         if not ORIGIN.fullmatch(origin):
-            raise ValueError(f"{FRAMED_BY} must hold origins such as https://course.example.org, got {origin!r}")
+            raise ValueError(f"{FRAMED_BY} must hold origins such as https://course.example.org, found {origin!r}")
     directives = POLICY | {"frame-ancestors": " ".join(["'self'", *origins])}
     return "; ".join(f"{name} {sources}" for name, sources in directives.items())

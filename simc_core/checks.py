@@ -24,13 +24,13 @@ def real(name: str, value: object, low: float = -math.inf, high: float = math.in
     elif isinstance(value, Real) and not isinstance(value, bool):
         number = float(value)
     else:
-        raise InvalidParameter(f"{name} must be a number, got {_shown(value)}")
+        raise InvalidParameter(f"{name} must be a number, found {_shown(value)}")
     if not math.isfinite(number):
-        raise InvalidParameter(f"{name} must be finite, got {number}")
+        raise InvalidParameter(f"{name} must be finite, found {number}")
     if number < low:
-        raise InvalidParameter(f"{name} must be >= {low:g}, got {number:g}")
+        raise InvalidParameter(f"{name} must be >= {low:g}, found {number:g}")
     if number > high:
-        raise InvalidParameter(f"{name} must be <= {high:g}, got {number:g}")
+        raise InvalidParameter(f"{name} must be <= {high:g}, found {number:g}")
     return number
 
 
@@ -38,9 +38,9 @@ def magnitude(name: str, value: object, largest: float) -> float:
     """`value` as a nonzero float, 1/largest <= |value| <= largest."""
     number = real(name, value)
     if number == 0:
-        raise InvalidParameter(f"{name} must not be zero, got 0")
+        raise InvalidParameter(f"{name} must not be zero, found 0")
     if not 1 / largest <= abs(number) <= largest:
-        raise InvalidParameter(f"|{name}| must be between {1 / largest:g} and {largest:g}, got {number:g}")
+        raise InvalidParameter(f"|{name}| must be between {1 / largest:g} and {largest:g}, found {number:g}")
     return number
 
 
@@ -53,7 +53,7 @@ def positive(name: str, value: object) -> float:
     """A gain > 0."""
     number = gain(name, value)
     if number < 0:
-        raise InvalidParameter(f"{name} must be > 0, got {number:g}")
+        raise InvalidParameter(f"{name} must be > 0, found {number:g}")
     return number
 
 
@@ -66,7 +66,7 @@ def positive_time(name: str, value: object) -> float:
     """A time constant > 0."""
     number = time_constant(name, value)
     if number < 0:
-        raise InvalidParameter(f"{name} must be > 0, got {number:g}")
+        raise InvalidParameter(f"{name} must be > 0, found {number:g}")
     return number
 
 
@@ -74,7 +74,7 @@ def optional_time(name: str, value: object) -> float:
     """A time >= 0: zero, or not below the smallest time the core works with."""
     number = real(name, value, low=0.0, high=LONGEST_TIME)
     if 0 < number < 1 / LONGEST_TIME:
-        raise InvalidParameter(f"{name} must be 0 or >= {1 / LONGEST_TIME:g}, got {number:g}")
+        raise InvalidParameter(f"{name} must be 0 or >= {1 / LONGEST_TIME:g}, found {number:g}")
     return number
 
 
@@ -82,17 +82,17 @@ def whole(name: str, value: object, low: int, high: int) -> int:
     """`value` as an int in [low, high]."""
     number = real(name, value, low, high)
     if number != int(number):
-        raise InvalidParameter(f"{name} must be a whole number, got {number:g}")
+        raise InvalidParameter(f"{name} must be a whole number, found {number:g}")
     return int(number)
 
 
 def items(name: str, values: object, most: int = MOST_FACTORS) -> tuple:
     """`values` as a tuple of at most `most` items."""
     if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InvalidParameter(f"{name} must be a list of numbers, got {_shown(values)}")
+        raise InvalidParameter(f"{name} must be a list of numbers, found {_shown(values)}")
     given = tuple(values)
     if len(given) > most:
-        raise InvalidParameter(f"{name} may have at most {most} entries, got {len(given)}")
+        raise InvalidParameter(f"{name} may have at most {most} entries, found {len(given)}")
     return given
 
 
@@ -101,9 +101,9 @@ def array(name: str, values: ArrayLike, most: int) -> np.ndarray:
     try:
         found = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError):
-        raise InvalidParameter(f"{name} must be a list of numbers, got {_shown(values)}") from None
+        raise InvalidParameter(f"{name} must be a list of numbers, found {_shown(values)}") from None
     if found.ndim != 1 or not 1 <= found.size <= most:
-        raise InvalidParameter(f"{name} must be a list of 1 to {most} numbers, got shape {found.shape}")
+        raise InvalidParameter(f"{name} must be a list of 1 to {most} numbers, found shape {found.shape}")
     return found
 
 

@@ -94,7 +94,7 @@ def controller_from(system: System) -> ParallelPid:
     else:  # no integral action: Ki = 0
         num, integral = np.append(num, 0.0), den
     if len(num) > 3 or len(integral) > 2 or integral[-1] == 0:
-        raise FormError(f"a PID controller is (Kd s^2 + Kp s + Ki)/(s (tau_F s + 1)), got {degrees}")
+        raise FormError(f"a PID controller is (Kd s^2 + Kp s + Ki)/(s (tau_F s + 1)), found {degrees}")
     Kd, Kp, Ki = np.concatenate([np.zeros(3 - len(num)), num]) / integral[-1]
     tau_F = integral[0] / integral[-1] if len(integral) == 2 else 0.0
     return ParallelPid(float(Kp), float(Ki), float(Kd), float(tau_F))
@@ -152,7 +152,7 @@ def _filtered(form: ParallelPid) -> tuple[np.ndarray, ...]:
 
 def _order(theta: float, pade_order: int | None) -> int:
     if pade_order is None:
-        raise InvalidParameter(f"pade_order must be given where theta = {theta:g} > 0, got None")
+        raise InvalidParameter(f"pade_order must be given where theta = {theta:g} > 0, found None")
     return checks.whole("pade_order", pade_order, 1, HIGHEST_PADE)
 
 
@@ -160,20 +160,20 @@ def _polynomials(system: System) -> tuple[np.ndarray, np.ndarray]:
     """Numerator and denominator, descending powers, leading coefficients that are only rounding removed."""
     if not isinstance(system, RATIONAL):
         raise InvalidParameter(
-            f"system must be of control.TransferFunction, StateSpace or scipy.signal.lti, got {type(system).__name__}"
+            f"system must be of control.TransferFunction, StateSpace or scipy.signal.lti, found {type(system).__name__}"
         )
     if isinstance(system, signal.lti):
         form = system.to_tf()
         num, den = np.atleast_1d(form.num), np.array(form.den)
         if num.ndim != 1:
-            raise InvalidParameter(f"system must have one input and one output, got {len(num)} outputs")
+            raise InvalidParameter(f"system must have one input and one output, found {len(num)} outputs")
     else:
         if not system.issiso():
             raise InvalidParameter(
-                f"system must have one input and one output, got {system.ninputs} and {system.noutputs}"
+                f"system must have one input and one output, found {system.ninputs} and {system.noutputs}"
             )
         if system.isdtime(strict=True):
-            raise InvalidParameter(f"system must be in continuous time, got a sampling period of {system.dt}")
+            raise InvalidParameter(f"system must be in continuous time, found a sampling period of {system.dt}")
         form = control.tf(system)
         num, den = form.num[0][0], np.array(form.den[0][0])
     num, den = (np.trim_zeros(np.real(np.asarray(each)), "f") for each in (num, den))

@@ -57,6 +57,13 @@ PARAMETERS = {
     "margins": "loop",
     "frequency_response": "loop omega",
     "parse_plant": "text",
+    "Trend": "t y u r t_u",
+    "identify": "trend structure",
+    "identify_all": "trend",
+    "relay_test": "plant amplitude hysteresis bias",
+    "setpoint_overshoot": "Kc0 setpoint peak peak_time lowest F",
+    "retune_oscillation": "controller period theta",
+    "robust_tau_c": "identified Ms probability",
 }
 FIELDS = {
     "Reduction": "model steps alternatives",
@@ -66,6 +73,10 @@ FIELDS = {
     "TimeResponse": "t r d y u",
     "Performance": "setpoint disturbance",
     "StepMetrics": "IAE ISE ITAE TV overshoot peak peak_time rise_time settling_time",
+    "Identified": (
+        "model plant parameters standard_errors intervals covariance bias drift residuals fit verdicts structure"
+    ),
+    "Relay": "t y u Ku Pu Ku_exact Pu_exact model",
     "CascadeDesign": "loop inner outer lambda_inner lambda_outer tau_c_inner tau_c_outer notes",
 }
 PRIMARY, SECONDARY = Plant(1, 1, (20,)), Plant(2, 0.2, (3,))
@@ -85,7 +96,9 @@ def test_results_hold_these_fields(name):
     assert present >= set(FIELDS[name].split())
 
 
-@pytest.mark.parametrize("name", ["InvalidParameter", "ParseError", "NotReducible", "FormError", "NotStable"])
+@pytest.mark.parametrize(
+    "name", ["InvalidParameter", "ParseError", "NotReducible", "FormError", "NotStable", "NotIdentifiable"]
+)
 def test_errors_are_value_errors(name):
     assert issubclass(getattr(simc_core, name), simc_core.SimcError)
     assert issubclass(simc_core.SimcError, ValueError)
@@ -145,7 +158,7 @@ OF_ANY_LOOP = (stability, margins, crossings, performance, simulate, lambda loop
 @pytest.mark.parametrize("function", OF_ANY_LOOP)
 @pytest.mark.parametrize("given", [Plant(1, 1, (8,)), SeriesPid(4, 8), None, "loop"])
 def test_what_is_no_loop_is_refused_in_words(function, given):
-    with pytest.raises(TypeError, match="loop must be a Loop, CascadeLoop or NestedLoops, got") as refused:
+    with pytest.raises(TypeError, match="loop must be a Loop, CascadeLoop or NestedLoops, found") as refused:
         function(given)
     assert isinstance(refused.value, SimcError)
 

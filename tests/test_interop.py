@@ -148,15 +148,15 @@ def test_the_closed_loop_is_the_block_diagram(controller):
 def test_what_has_no_equivalent_is_refused():
     with pytest.raises(InvalidParameter, match=r"pade_order must be given where theta = 0\.5"):
         to_tf(PLANTS[0])
-    with pytest.raises(InvalidParameter, match="pade_order must be >= 1, got 0"):
+    with pytest.raises(InvalidParameter, match="pade_order must be >= 1, found 0"):
         to_ss(PLANTS[0], 0)
-    with pytest.raises(FormError, match="got degree 0 over degree 3"):
+    with pytest.raises(FormError, match="found degree 0 over degree 3"):
         controller_from(control.tf([1.0], [1.0, 2.0, 3.0, 1.0]))
-    with pytest.raises(InvalidParameter, match="one input and one output, got 2"):
+    with pytest.raises(InvalidParameter, match="one input and one output, found 2"):
         plant_from(control.ss(-np.eye(2), np.eye(2), np.eye(2), np.zeros((2, 2))))
     with pytest.raises(InvalidParameter, match="continuous time"):
         plant_from(control.tf([1.0], [1.0, -0.5], dt=0.1))
-    with pytest.raises(InvalidParameter, match="got str"):
+    with pytest.raises(InvalidParameter, match="found str"):
         plant_from("1/(s+1)")
     with pytest.raises(FormError, match="tau_F must be > 0"):
         closed_loop(Loop(Plant(1.0, 0.0, (4.0,), (1.0,)), SeriesPid(2.0, 8.0, 1.0)))

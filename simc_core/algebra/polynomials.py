@@ -67,7 +67,7 @@ def _trimmed(name: str, polynomial: object) -> np.ndarray:
     values = [checks.real(f"{name} coefficient", value) for value in given]
     coefficients = np.trim_zeros(np.array(values), "f")
     if coefficients.size == 0:
-        raise InvalidParameter(f"{name} must not be zero or empty, got {values}")
+        raise InvalidParameter(f"{name} must not be zero or empty, found {values}")
     return coefficients
 
 
@@ -82,7 +82,7 @@ def _check_sizes(name: str, coefficients: np.ndarray) -> None:
         raise InvalidParameter(
             f"time constants of the {name} must be between {1 / checks.LONGEST_TIME:g} and {checks.LONGEST_TIME:g}: "
             "coefficients of one polynomial must be of comparable size, "
-            f"got {coefficients[0]:g} to {coefficients[-1]:g}"
+            f"found {coefficients[0]:g} to {coefficients[-1]:g}"
         )
 
 
@@ -105,7 +105,7 @@ def _roots(exact: Polynomial) -> list[complex]:
         scaled = scaled / np.max(np.abs(scaled))
     if not np.all(np.isfinite(scaled)) or scaled[0] == 0:
         sizes = f"{coefficients[0]:g} to {coefficients[-1]:g}"
-        raise InvalidParameter(f"coefficients of one polynomial must be of comparable size, got {sizes}")
+        raise InvalidParameter(f"coefficients of one polynomial must be of comparable size, found {sizes}")
     roots = np.roots(scaled)
     merged = _merged(roots, scaled)
     if merged is not None:

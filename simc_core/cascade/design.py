@@ -114,8 +114,8 @@ def simc_cascade(
     for name, block in (("primary", primary), ("secondary", secondary)):
         if block.unstable_poles:
             raise InvalidParameter(
-                f"{name} must be stable or integrating for a SIMC cascade, got {block.unstable_poles} unstable poles: "
-                "use direct synthesis, which is made for them"
+                f"{name} must be stable or integrating for a SIMC cascade, found {block.unstable_poles} unstable "
+                "poles: use direct synthesis, which is made for them"
             )
     model = half_rule(secondary, _order("inner", inner)).model
     Cb, tau_cb = _tuned(model, tau_c_inner, "inner", Ms_inner, lambda C: NestedLoops((secondary,), (C,)))
@@ -246,7 +246,7 @@ def _synthesised(
 
 def _order(name: str, kind: str) -> int:
     if kind not in KINDS:
-        raise InvalidParameter(f"{name} must be PI or PID, got {str(kind)[:20]}")
+        raise InvalidParameter(f"{name} must be PI or PID, found {str(kind)[:20]}")
     return KINDS.index(kind) + 1
 
 
@@ -255,7 +255,7 @@ def _tuned(
 ) -> tuple[Controller, float]:
     """SIMC controller of one loop, and its tau_c."""
     if tau_c is not None and Ms is not None:
-        raise InvalidParameter(f"only one of tau_c_{loop} and Ms_{loop} may be given, got {tau_c:g} and {Ms:g}")
+        raise InvalidParameter(f"only one of tau_c_{loop} and Ms_{loop} may be given, found {tau_c:g} and {Ms:g}")
     scale = default_tau_c(model)
     if Ms is None and tau_c is None:
         tau_c = scale
@@ -305,7 +305,7 @@ def _on_filter(loop: str, design: CascadeDesign, primary: Plant, secondary: Plan
             cures.append(words)
     cures.append(f"a PI {'inside' if loop == 'inner' else 'outside'}")
     return [
-        f"Kd of the {loop} controller should have the sign of Ki = {controller.Ki:.4g}, got {controller.Kd:.4g} "
+        f"Kd of the {loop} controller should have the sign of Ki = {controller.Ki:.4g}, found {controller.Kd:.4g} "
         f"with tau_F = {controller.tau_F:.4g}: take {', or '.join(cures)}"
     ]
 

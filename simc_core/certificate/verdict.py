@@ -239,7 +239,7 @@ def _beside(terms: Sequence[Factored], touches: float, neutral: float) -> Stabil
     found = winding(characteristic([shifted(term, sigma) for term in terms])) if turns <= most else None
     if found is None or found.zeros is None:
         raise InvalidParameter(
-            f"omega theta of poles on the imaginary axis must be <= {most:g}, got {turns:g} (|L(inf)| = "
+            f"omega theta of poles on the imaginary axis must be <= {most:g}, found {turns:g} (|L(inf)| = "
             f"{neutral:.12g}): the poles beside them cannot be told from these in double precision"
         )
     return Stability("unstable", found.zeros, neutral) if found.zeros else Stability("marginal", 0, neutral)

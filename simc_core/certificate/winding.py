@@ -99,7 +99,7 @@ def _verdict(f: Characteristic, turned: float, last: float, touch: float, work: 
 def _refuse(functions: Sequence[Characteristic], work: np.ndarray) -> None:
     most = int(work.argmax())
     raise InvalidParameter(
-        f"the stability certificate must need <= {MOST_SEGMENTS} segments, got {work[most]:.0f}: the loop is too "
+        f"the stability certificate must need <= {MOST_SEGMENTS} segments, found {work[most]:.0f}: the loop is too "
         f"close to |L(inf)| = 1 (here {functions[most].neutral:g}) or its time constants are too far apart"
     )
 

@@ -81,7 +81,7 @@ LAWS = {"backward": Law(backward, backward_response), "tustin": Law(tustin, tust
 def known_law(law: str) -> str:
     """`law` if it is one of LAWS. Raises InvalidParameter."""
     if law not in LAWS:
-        raise InvalidParameter(f"law must be one of {', '.join(LAWS)}, got {law!r}")
+        raise InvalidParameter(f"law must be one of {', '.join(LAWS)}, found {law!r}")
     return law
 
 
@@ -90,6 +90,6 @@ def law_for(law: str, pid: ParallelPid, h: float) -> Law:
     if known_law(law) == "tustin" and (pid.tau_F or pid.Kd) and pid.tau_F < h / 2:
         raise InvalidParameter(
             f'tau_F must be >= h/2 = {h / 2:g} for the law "tustin" (0 will do without derivative action), '
-            f'got {pid.tau_F:g}: "backward" has no such limit'
+            f'found {pid.tau_F:g}: "backward" has no such limit'
         )
     return LAWS[law]

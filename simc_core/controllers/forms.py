@@ -269,7 +269,7 @@ class IdealPid(_Forms):
         root = 1 - 4 * self.tau_D / self.tau_I
         if root < -DOUBLE_ROOT:
             raise FormError(
-                f"a series form needs tau_I >= 4 tau_D = {4 * self.tau_D:g}, got tau_I = {self.tau_I:g}: "
+                f"a series form needs tau_I >= 4 tau_D = {4 * self.tau_D:g}, found tau_I = {self.tau_I:g}: "
                 "the zeros of the controller are complex"
             )
         f = (1 + math.sqrt(max(root, 0.0))) / 2
@@ -324,7 +324,7 @@ class ParallelPid(_Forms):
         put(self, "tau_F", checks.optional_time("tau_F", self.tau_F))
         _weights(self)
         if self.Kp == self.Ki == self.Kd == 0:
-            raise InvalidParameter("one of Kp, Ki, Kd must not be zero, got 0, 0, 0")
+            raise InvalidParameter("one of Kp, Ki, Kd must not be zero, found 0, 0, 0")
 
     @property
     def factored(self) -> Factored:
@@ -349,9 +349,11 @@ class ParallelPid(_Forms):
         Raises FormError for Kp = 0 (no ideal form) and where tau_I or tau_D would be negative.
         """
         if self.Kp == 0:
-            raise FormError(f"an ideal form needs Kp != 0, got Kp = 0 with Ki = {self.Ki:g}, Kd = {self.Kd:g}")
+            raise FormError(f"an ideal form needs Kp != 0, found Kp = 0 with Ki = {self.Ki:g}, Kd = {self.Kd:g}")
         if self.Ki * self.Kp < 0 or self.Kd * self.Kp < 0:
-            raise FormError(f"an ideal form needs Kp, Ki and Kd of one sign, got {self.Kp:g}, {self.Ki:g}, {self.Kd:g}")
+            raise FormError(
+                f"an ideal form needs Kp, Ki and Kd of one sign, found {self.Kp:g}, {self.Ki:g}, {self.Kd:g}"
+            )
         tau_I = self.Kp / self.Ki if self.Ki else math.inf
         return IdealPid(self.Kp, tau_I, self.Kd / self.Kp, self.tau_F, self.b, self.c)
 
@@ -404,11 +406,11 @@ class IController(_Forms):
 
     def to_series(self) -> SeriesPid:
         """Raises FormError: a pure integrator is the limit tau_I -> 0 of a series form, not one itself."""
-        raise FormError(f"pure integral action has no series form with tau_I > 0, got K_I = {self.K_I:g}")
+        raise FormError(f"pure integral action has no series form with tau_I > 0, found K_I = {self.K_I:g}")
 
     def to_ideal(self) -> IdealPid:
         """Raises FormError, as to_series does."""
-        raise FormError(f"pure integral action has no ideal form with tau_I > 0, got K_I = {self.K_I:g}")
+        raise FormError(f"pure integral action has no ideal form with tau_I > 0, found K_I = {self.K_I:g}")
 
     def to_parallel(self) -> ParallelPid:
         """The same controller in parallel form: Ki = K_I, Kp = Kd = 0."""
@@ -417,7 +419,7 @@ class IController(_Forms):
 
 def needs_filter(why: str) -> str:
     """The refusal of a derivative without a filter. why: what it acts on, as "on ..."."""
-    return f"tau_F must be > 0 for derivative action {why}, got 0"
+    return f"tau_F must be > 0 for derivative action {why}, found 0"
 
 
 Controller = SeriesPid | IdealPid | ParallelPid | IController

@@ -61,20 +61,20 @@ class GainSchedule:
         object.__setattr__(self, "models", models)
         if len(values) != len(models) or len(values) < 2:
             raise InvalidParameter(
-                f"values and models must be as many, 2 at least, got {len(values)} and {len(models)}"
+                f"values and models must be as many, 2 at least, found {len(values)} and {len(models)}"
             )
         if not all(one < other for one, other in zip(self.values, self.values[1:], strict=False)):
-            raise InvalidParameter(f"values must increase, got {', '.join(f'{x:g}' for x in self.values)}")
+            raise InvalidParameter(f"values must increase, found {', '.join(f'{x:g}' for x in self.values)}")
         for i, model in enumerate(models):
             if not isinstance(model, Model) or type(model) is not type(models[0]):
                 raise InvalidParameter(
-                    f"models must be reduced models of one kind, got {type(models[0]).__name__} in row 1 and "
+                    f"models must be reduced models of one kind, found {type(models[0]).__name__} in row 1 and "
                     f"{type(model).__name__} in row {i + 1}"
                 )
             if model.plant.k * models[0].plant.k < 0:
-                raise InvalidParameter(f"gains must have one sign, got {model.plant.k:g} in row {i + 1}")
+                raise InvalidParameter(f"gains must have one sign, found {model.plant.k:g} in row {i + 1}")
         if self.between not in BETWEEN:
-            raise InvalidParameter(f"between must be one of {', '.join(BETWEEN)}, got {self.between!r}")
+            raise InvalidParameter(f"between must be one of {', '.join(BETWEEN)}, found {self.between!r}")
 
     @property
     def rows(self) -> tuple[Controller, ...]:
@@ -84,7 +84,7 @@ class GainSchedule:
     def model(self, x: float, gain: str = "linear") -> Model:
         """The plant at the scheduling value x, its gain linear or exponential between rows, the rest linear."""
         if gain not in GAIN_OF_PLANT:
-            raise InvalidParameter(f"gain must be one of {', '.join(GAIN_OF_PLANT)}, got {gain!r}")
+            raise InvalidParameter(f"gain must be one of {', '.join(GAIN_OF_PLANT)}, found {gain!r}")
         row, part = self._place(x)
         one, other = self.models[row], self.models[row + 1]
 
@@ -104,7 +104,7 @@ class GainSchedule:
         one, other = (_with_times(self.rule(self.models[i])) for i in (row, row + 1))
         if type(one) is not type(other):
             raise InvalidParameter(
-                f"settings of one form can be interpolated only, got {type(one).__name__} in row {row + 1} and "
+                f"settings of one form can be interpolated only, found {type(one).__name__} in row {row + 1} and "
                 f"{type(other).__name__} in row {row + 2}: interpolate the model"
             )
 

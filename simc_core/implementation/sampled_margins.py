@@ -71,13 +71,13 @@ def sampled_margins(loop: Loop, h: float, law: str = "backward", delay_scans: in
     1.6908
     """
     if not isinstance(loop, Loop):
-        raise InvalidParameter(f"loop must be a Loop, got {type(loop).__name__}: nested loops are not sampled")
+        raise InvalidParameter(f"loop must be a Loop, found {type(loop).__name__}: nested loops are not sampled")
     h = checks.positive_time("h", h)
     law_for(law, loop.controller.to_parallel(), h)
     sampled = SampledLoop(loop, h, law, checks.whole("delay_scans", delay_scans, 0, 100))
     if loop.plant.theta > MOST_PERIODS * h:
         shortest = loop.plant.theta / MOST_PERIODS
-        raise InvalidParameter(f"h must be >= theta/{MOST_PERIODS} = {shortest:g}, got {h:g}")
+        raise InvalidParameter(f"h must be >= theta/{MOST_PERIODS} = {shortest:g}, found {h:g}")
     if not sampled.stable:
         return NOT_STABLE
     crossed = _crossings(sampled)
@@ -127,7 +127,7 @@ def longest_sampling_period(loop: Loop, law: str = "backward", delay_scans: int 
     more = checks.real("more", more, 1e-6, 10.0)
     continuous = margins(loop)
     if not continuous.stable:
-        raise NotStable("the loop must be stable with a continuous controller, got one that is not")
+        raise NotStable("the loop must be stable with a continuous controller, found one that is not")
     pid, allowed = loop.controller.to_parallel(), continuous.Ms * (1 + more)
     limit = 2 * pid.tau_F if known_law(law) == "tustin" and (pid.tau_F or pid.Kd) else checks.LONGEST_TIME
     law_for(law, pid, 0.0 if pid.tau_F else 1.0)
@@ -148,7 +148,7 @@ def longest_sampling_period(loop: Loop, law: str = "backward", delay_scans: int 
 
 def _Ms(sampled: SampledLoop) -> float:
     values = sampled.sensitivity(sampled.angles)
-    return max(values.max(), *_peaks(sampled.sensitivity, sampled.angles, values)[1])
+    return float(max([values.max(), *_peaks(sampled.sensitivity, sampled.angles, values)[1]]))
 
 
 def _crossings(sampled: SampledLoop) -> Crossings:

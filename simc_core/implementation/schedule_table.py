@@ -45,8 +45,8 @@ class ScheduleTable:
     >>> from simc_core import FirstOrderDelay, GainSchedule, ScheduleTable
     >>> schedule = GainSchedule((20, 80), (FirstOrderDelay(1, 4, 20), FirstOrderDelay(5, 2, 8)), between="PB")
     >>> table = ScheduleTable(schedule)
-    >>> table.band, table.settings(50).Kc  # 1/((0.4 + 2.5)/2)
-    ((0.4, 2.5), 0.6896551724137931)
+    >>> table.band, round(table.settings(50).Kc, 4)  # 1/((0.4 + 2.5)/2)
+    ((0.4, 2.5), 0.6897)
     """
 
     schedule: GainSchedule
@@ -110,9 +110,9 @@ class ScheduleTable:
                 row = self.schedule.settings(x).to_ideal()
             except FormError as error:
                 raise InvalidParameter(
-                    f"settings must have an ideal form to be tabulated, got at {x:g}: {error}"
+                    f"settings must have an ideal form to be tabulated, found at {x:g}: {error}"
                 ) from None
             if math.isinf(row.tau_I):
-                raise InvalidParameter(f"settings must have integral action to be tabulated, got none at {x:g}")
+                raise InvalidParameter(f"settings must have integral action to be tabulated, found none at {x:g}")
             rows.append(row)
         return tuple(rows)

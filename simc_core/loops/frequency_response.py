@@ -118,5 +118,5 @@ def at_frequencies(omega: ArrayLike) -> np.ndarray:
     found = checks.array("omega", omega, MOST_FREQUENCIES)
     wrong = found[~(np.isfinite(found) & (found > 0))]
     if wrong.size:
-        raise InvalidParameter(f"omega must be positive and finite, got {wrong[0]:g}")
+        raise InvalidParameter(f"omega must be positive and finite, found {wrong[0]:g}")
     return found

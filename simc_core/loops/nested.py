@@ -59,11 +59,11 @@ class NestedLoops:
         put(self, "controllers", checks.items("controllers", self.controllers, MOST_LOOPS))
         if len(self.blocks) != len(self.controllers) or not self.blocks:
             raise InvalidParameter(
-                f"blocks and controllers must be as many, at least one, got {len(self.blocks)} and "
+                f"blocks and controllers must be as many, at least one, found {len(self.blocks)} and "
                 f"{len(self.controllers)}"
             )
         if self.controllers[-1] is None:
-            raise InvalidParameter("the outermost controller must be given, got None")
+            raise InvalidParameter("the outermost controller must be given, found None")
 
     @property
     def outermost(self) -> Controller:
@@ -139,7 +139,7 @@ class CascadeLoop:
     def inner_loop(self) -> Loop:
         """The inner loop on its own. Raises InvalidParameter where there is none."""
         if self.inner is None:
-            raise InvalidParameter("inner must be a controller for the inner loop to exist, got None")
+            raise InvalidParameter("inner must be a controller for the inner loop to exist, found None")
         return Loop(self.secondary, self.inner)
 
     @property
@@ -150,4 +150,4 @@ class CascadeLoop:
 
 def not_a_loop(given: object) -> WrongType:
     """The refusal of whatever works on all kinds of loops."""
-    return WrongType(f"loop must be a Loop, CascadeLoop or NestedLoops, got {type(given).__name__}")
+    return WrongType(f"loop must be a Loop, CascadeLoop or NestedLoops, found {type(given).__name__}")

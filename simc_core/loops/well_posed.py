@@ -16,4 +16,4 @@ def is_well_posed(one_plus_L: float) -> bool:
 def require_well_posed(one_plus_L: float) -> None:
     """Raises InvalidParameter where 1 + L(inf) is 0, for a loop without dead time."""
     if not is_well_posed(one_plus_L):
-        raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, got 0: u is not defined")
+        raise InvalidParameter("1 + L(inf) must not be 0 in a loop without dead time, found 0: u is not defined")

@@ -49,13 +49,13 @@ def nested_performance(loop: NestedLoops) -> NestedPerformance:
     """performance of nested loops. Raises NotStable."""
     verdict = stability(loop)
     if verdict.verdict != "stable":
-        raise NotStable(f"step metrics exist for stable loops only, got a cascade that is {verdict.verdict}")
+        raise NotStable(f"step metrics exist for stable loops only, found a cascade that is {verdict.verdict}")
     pieces, N = _to_rest(loop), len(loop.blocks)
     y_and_u = pieces.coefficients[:, :, [N - 1, N]]
     _, right = Pieces(pieces.edges, y_and_u).ends()
     offset = np.abs(right[-1, 0] - np.array([1.0] + [0.0] * N))
     if np.any(offset > LARGEST_OFFSET * np.max(np.abs(right[:, 0]), axis=0)):
-        raise NotStable(f"IAE needs loops that settle without offset, got {float(np.max(offset)):.4g}")
+        raise NotStable(f"IAE needs loops that settle without offset, found {float(np.max(offset)):.4g}")
     setpoint, *disturbances = metrics_of(_steps(pieces.edges, y_and_u))
     return NestedPerformance(setpoint, tuple(disturbances))
 
@@ -80,4 +80,4 @@ def _to_rest(loop: NestedLoops) -> Pieces:
         if moving <= AT_REST or before / 2 < moving <= STIFF_ROUNDING:
             return pieces
         before, t_end = moving, 2 * t_end
-    raise NotStable(f"the loops must come to rest within {t_end:.3g}, got ones too close to their stability limit")
+    raise NotStable(f"the loops must come to rest within {t_end:.3g}, found ones too close to their stability limit")

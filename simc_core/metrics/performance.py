@@ -117,7 +117,7 @@ def performance_many(loops: Sequence[Loop]) -> list[Performance | SimcError]:
 def _of_single(loop: Loop) -> Performance:
     verdict = stability(loop)
     if verdict.verdict != "stable":
-        raise NotStable(f"step metrics exist for a stable loop only, got one that is {verdict.verdict}")
+        raise NotStable(f"step metrics exist for a stable loop only, found one that is {verdict.verdict}")
     (found,) = _measured([loop], settled(loop))
     if isinstance(found, SimcError):
         raise found
@@ -148,12 +148,12 @@ def _refusal(course: UnitResponses, i: int) -> NotStable | None:
     last = course.first[i + 1] - 1
     if not course.at_rest[i]:
         reached = course.begin[last] + course.length[last]
-        return NotStable(f"the loop must come to rest within {reached:.3g}, got one too close to its stability limit")
+        return NotStable(f"the loop must come to rest within {reached:.3g}, found one too close to its stability limit")
     right = np.add.reduce(course.coefficients[0, :, course.first[i] : last + 1], axis=-1)
     offsets, largest = right[:, -1] - (1.0, 0.0), np.maximum.reduce(np.abs(right), axis=1)
     for name, offset, size in zip(("set-point", "load"), offsets.tolist(), largest.tolist(), strict=True):
         if abs(offset) > LARGEST_OFFSET * max(size, 1e-300):
-            return NotStable(f"IAE needs a loop that settles without offset, got {-offset:.4g} after a {name} step")
+            return NotStable(f"IAE needs a loop that settles without offset, found {-offset:.4g} after a {name} step")
     return None
 
 

@@ -14,7 +14,7 @@ LOST_POWER = re.compile(r"(?P<number>[+-]?[\d.,]+) *[*x] *10 *(?P<power>[+-]?\d+
 def no_number(name: str, found: str) -> str:
     """The message for the field `name` in which `found` was typed."""
     shown = quoted(found)
-    return f"{name} must be one number, got '{shown}': {_way_out(found.strip())}"
+    return f"{name} must be one number, found '{shown}': {_way_out(found.strip())}"
 
 
 def quoted(text: str) -> str:

@@ -57,9 +57,9 @@ def read_numbers(name: str, text: str) -> list[float]:
 def read_exact_numbers(name: str, text: str) -> list[Fraction]:
     """As `read_numbers`, without rounding."""
     if not isinstance(text, str):
-        raise InvalidParameter(f"{name} must be text, got {type(text).__name__}")
+        raise InvalidParameter(f"{name} must be text, found {type(text).__name__}")
     if len(text) > LONGEST_LIST:
-        raise InvalidParameter(f"{name} may have at most {LONGEST_LIST} characters, got {len(text)}")
+        raise InvalidParameter(f"{name} may have at most {LONGEST_LIST} characters, found {len(text)}")
     plain = COMMENT.sub("", tidied(text.strip().strip(INVISIBLE))).strip().rstrip(";").strip()
     if assigned := NAME.match(plain):
         plain = plain[assigned.end() :].strip()
@@ -78,7 +78,7 @@ def program_list(name: str, text: str) -> list[Fraction]:
     """The numbers of [1, 2.5 3], as MATLAB and Python have them: a comma separates, whatever stands beside it."""
     inner = text.strip()[1:-1].strip().rstrip(",")
     if re.search(r"[;\n]", inner.strip()):
-        raise InvalidParameter(f"{name} must be one row of numbers, got '{quoted(text)}'")
+        raise InvalidParameter(f"{name} must be one row of numbers, found '{quoted(text)}'")
     return _each(name, re.split(r"\s*,\s*|\s+", inner), text)
 
 
@@ -103,9 +103,9 @@ def _listed(name: str, plain: str) -> list[Fraction]:
             return program_list(name, plain)
         plain = inner
     if not plain:
-        raise InvalidParameter(f"{name} must have at least one coefficient, got none")
+        raise InvalidParameter(f"{name} must have at least one coefficient, found none")
     if re.search(r"[^\W\d_]{2,}|[a-df-wyzA-DF-WYZ(]", plain):
-        raise InvalidParameter(f"{name} must be coefficients, got '{quoted(plain)}': write 1 3 2 for s^2 + 3s + 2")
+        raise InvalidParameter(f"{name} must be coefficients, found '{quoted(plain)}': write 1 3 2 for s^2 + 3s + 2")
     return _each(name, _parts(name, plain), plain)
 
 
@@ -145,25 +145,25 @@ def _blank_separated(name: str, plain: str) -> list[str]:
         raise _two_ways(name, plain)
     if any(part in ("+", "-", "/", "*") for part in parts):
         raise InvalidParameter(
-            f"{name}: a sign must stand at its number, got '{quoted(plain)}': write 1 -2 for 1 and -2"
+            f"{name}: a sign must stand at its number, found '{quoted(plain)}': write 1 -2 for 1 and -2"
         )
     return parts
 
 
 def _two_ways(name: str, plain: str) -> InvalidParameter:
     return InvalidParameter(
-        f"{name} can be read in two ways, got '{quoted(plain)}': write decimal points, and semicolons between the "
+        f"{name} can be read in two ways, found '{quoted(plain)}': write decimal points, and semicolons between the "
         "coefficients, like 1; 2.5; 3"
     )
 
 
 def _each(name: str, parts: list[str], text: str) -> list[Fraction]:
     if len(parts) > MOST_NUMBERS:
-        raise InvalidParameter(f"{name} may have at most {MOST_NUMBERS} coefficients, got {len(parts)}")
+        raise InvalidParameter(f"{name} may have at most {MOST_NUMBERS} coefficients, found {len(parts)}")
     values = []
     for i, part in enumerate(parts, start=1):
         if not part:
-            raise InvalidParameter(f"{name}: coefficient {i} is missing, got '{quoted(text)}'")
+            raise InvalidParameter(f"{name}: coefficient {i} is missing, found '{quoted(text)}'")
         if " " in part:
             raise _two_ways(name, text)
         values.append(exact(f"{name}: coefficient {i}", part))

@@ -42,7 +42,7 @@ class Criterion:
 
     def __post_init__(self) -> None:
         if self.name not in CRITERIA:
-            raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, got {self.name!r}")
+            raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, found {self.name!r}")
 
     @property
     def weighs_derivative(self) -> float:

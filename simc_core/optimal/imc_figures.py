@@ -58,7 +58,7 @@ def imc_point(ratio: float, kind: str = "PID") -> ImcPoint:
 def imc_loop(ratio: float, kind: str) -> Loop:
     """L of the module docstring, as an integrator with dead time 1."""
     if kind not in BETA:
-        raise InvalidParameter(f"kind must be PI or PID, got {kind!r}")
+        raise InvalidParameter(f"kind must be PI or PID, found {kind!r}")
     ratio = checks.positive_time("epsilon/theta", ratio)
     beta = BETA[kind]
     return Loop(Plant(1.0, 1.0, integrators=1), IdealPid(1 / (ratio + beta), math.inf, beta))

@@ -237,7 +237,7 @@ def peak_bound(name: str, value: object) -> float:
     number = checks.real(name, value, high=LARGEST_M)
     if number <= 1:
         raise InvalidParameter(
-            f"{name} must be > 1, the peak of every loop with dead time or more lags, got {number:g}"
+            f"{name} must be > 1, the peak of every loop with dead time or more lags, found {number:g}"
         )
     return number
 

@@ -58,7 +58,7 @@ def stability_limit(plant: Plant, Kc: float) -> float:
         if stability(Loop(plant, ParallelPid(Kc, math.copysign(middle, Kc)))).verdict == "stable":
             return Kc / math.copysign(high, Kc)
     raise NotStable(
-        f"Kc must be a gain with which some integral time keeps the loop stable, got {Kc:g}: take a smaller one, or "
+        f"Kc must be a gain with which some integral time keeps the loop stable, found {Kc:g}: take a smaller one, or "
         "one of the other sign, and for an unstable plant a larger one"
     )
 

@@ -65,17 +65,17 @@ class Search:
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
-            raise InvalidParameter(f"kind must be PI or PID, got {self.kind!r}")
+            raise InvalidParameter(f"kind must be PI or PID, found {self.kind!r}")
         if self.kind == "PI":
             return
         if not self.tau_F and self.criterion.name != "load":
             raise InvalidParameter(
                 f"tau_F must be > 0 for the criterion {self.criterion.name} of a PID controller, whose derivative acts "
-                "on the set point, got 0"
+                "on the set point, found 0"
             )
         if not self.tau_F and self.plant.factored.relative_degree == 0:
             raise InvalidParameter(
-                "tau_F must be > 0 for a PID controller of a plant that answers at once (of relative degree 0), got 0"
+                "tau_F must be > 0 for a PID controller of a plant that answers at once (of relative degree 0), found 0"
             )
 
     def best(self, M: float, warm: Found | None = None) -> tuple[Optimum, Found]:
@@ -112,7 +112,7 @@ class Search:
         tau_I, tau_D = self._shapes()
         if np.isinf(problem.edges(tau_I, tau_D)[1]).any():
             raise NoOptimum(
-                f"the plant must have dead time, or more lags, for an optimal {self.kind} controller, got one whose "
+                f"the plant must have dead time, or more lags, for an optimal {self.kind} controller, found one whose "
                 "gain may grow without end within the bound: the error can be made as small as you like"
             )
 
@@ -122,7 +122,7 @@ class Search:
         def feasible(M: float) -> bool:
             return bool(np.isfinite(problem.gains.highest(problem.shapes(tau_I, tau_D), M)[1]).any())
 
-        said = f"Ms must be large enough for a stable {self.kind} loop, got {problem.M:g}"
+        said = f"Ms must be large enough for a stable {self.kind} loop, found {problem.M:g}"
         if not feasible(HIGHEST):
             other = "take PID" if self.kind == "PI" else "take a smaller tau_F, or a cascade"
             return f"{said}: no {self.kind} controller with a peak below {HIGHEST:g} was found; {other}"

@@ -104,7 +104,7 @@ class SecondOrderDelay(_Model):
     def __post_init__(self) -> None:
         _Model.__post_init__(self)
         if self.tau2 > self.tau1:
-            raise InvalidParameter(f"tau2 must be <= tau1 = {self.tau1:g}, got {self.tau2:g}")
+            raise InvalidParameter(f"tau2 must be <= tau1 = {self.tau1:g}, found {self.tau2:g}")
 
     @property
     def plant(self) -> Plant:

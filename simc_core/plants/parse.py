@@ -58,9 +58,9 @@ def parse_plant(text: str) -> Plant:
     (3.0, (6.0, 4.0, 2.0))
     """
     if not isinstance(text, str):
-        raise ParseError(f"a transfer function must be text, got {type(text).__name__}")
+        raise ParseError(f"a transfer function must be text, found {type(text).__name__}")
     if len(text) > LONGEST_TEXT:
-        raise ParseError(f"text must have at most {LONGEST_TEXT} characters, got {len(text)}", text, LONGEST_TEXT)
+        raise ParseError(f"text must have at most {LONGEST_TEXT} characters, found {len(text)}", text, LONGEST_TEXT)
     if not text.strip():
         raise ParseError(f"text must not be empty: write a transfer function, {EXAMPLE}", text)
     try:
@@ -73,7 +73,7 @@ def _plant(text: str) -> Plant:
     value = _Statements(text).value()
     if value.theta < 0:
         raise ParseError(
-            f"dead time must be >= 0, got {float(value.theta):g}: e^{{+{-float(value.theta):g}s}} would look into "
+            f"dead time must be >= 0, found {float(value.theta):g}: e^{{+{-float(value.theta):g}s}} would look into "
             f"the future; a dead time of {-float(value.theta):g} is e^{{-{-float(value.theta):g}s}}",
             text,
             value.at,

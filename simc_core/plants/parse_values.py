@@ -38,7 +38,7 @@ def plant_of(value: Value) -> Plant:
     Raises InvalidParameter where it is out of a plant's bounds.
     """
     if is_zero(value):
-        raise InvalidParameter("k must not be zero, got 0")
+        raise InvalidParameter("k must not be zero, found 0")
     gain = Fraction(1)
     found: dict[str, tuple[int, list[float], list[tuple[float, float]]]] = {}
     for name, polynomials in (("numerator", value.num), ("denominator", value.den)):
@@ -56,7 +56,7 @@ def plant_of(value: Value) -> Plant:
         found[name] = (at_origin, times, pairs)
     (zeros, leads, lead_pairs), (poles, lags, lag_pairs) = found["numerator"], found["denominator"]
     if zeros > poles:
-        raise InvalidParameter(f"numerator must not vanish at s = 0 (no gain to control with), got s^{zeros - poles}")
+        raise InvalidParameter(f"numerator must not vanish at s = 0 (no gain to control with), found s^{zeros - poles}")
     return Plant(
         _float("k", gain),
         _float("theta", value.theta),
@@ -97,7 +97,7 @@ def _float(name: str, value: Fraction) -> float:
     try:
         return float(value)
     except OverflowError:
-        raise InvalidParameter(f"|{name}| must be <= {checks.LARGEST_GAIN:g}, got more than 1e308") from None
+        raise InvalidParameter(f"|{name}| must be <= {checks.LARGEST_GAIN:g}, found more than 1e308") from None
 
 
 def constant(number: Fraction) -> Value:

@@ -73,9 +73,11 @@ class Plant:
         put(self, "lead_pairs", _pairs("lead_pairs", self.lead_pairs))
         zeros, poles = len(self.leads) + 2 * len(self.lead_pairs), self.order
         if poles > checks.MOST_FACTORS:
-            raise InvalidParameter(f"a plant may have at most {checks.MOST_FACTORS} poles, got {poles}")
+            raise InvalidParameter(f"a plant may have at most {checks.MOST_FACTORS} poles, found {poles}")
         if zeros > poles:
-            raise InvalidParameter(f"degree of the numerator must be <= {poles}, that of the denominator, got {zeros}")
+            raise InvalidParameter(
+                f"degree of the numerator must be <= {poles}, that of the denominator, found {zeros}"
+            )
 
     @classmethod
     def from_polynomials(cls, num: Iterable[float], den: Iterable[float], theta: float = 0.0) -> "Plant":
@@ -95,7 +97,7 @@ class Plant:
         integrators = bottom.at_origin - top.at_origin
         if integrators < 0:
             raise InvalidParameter(
-                f"numerator must not vanish at s = 0 (no gain to control with), got s^{-integrators}"
+                f"numerator must not vanish at s = 0 (no gain to control with), found s^{-integrators}"
             )
         return cls(top.constant / bottom.constant, theta, bottom.times, top.times, integrators, bottom.pairs, top.pairs)
 
@@ -223,7 +225,7 @@ def _pairs(name: str, values: object) -> tuple[tuple[float, float], ...]:
     for i, value in enumerate(checks.items(name, values)):
         pair = checks.items(f"{name}[{i}]", value)
         if len(pair) != 2:
-            raise InvalidParameter(f"{name}[{i}] must be (tau, zeta), got {len(pair)} numbers")
+            raise InvalidParameter(f"{name}[{i}] must be (tau, zeta), found {len(pair)} numbers")
         tau = checks.positive_time(f"{name}[{i}] tau", pair[0])
         pairs.append((tau, checks.real(f"{name}[{i}] zeta", pair[1], -100.0, 100.0)))
     return tuple(pairs)

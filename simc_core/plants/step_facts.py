@@ -36,7 +36,7 @@ class SettlingFacts:
         put(self, "t63", checks.optional_time("t63", self.t63))
         if not self.from_movement and self.t63 < self.theta:
             raise InvalidParameter(
-                f"t63 must be >= theta = {self.theta:g} where it counts from the step, got {self.t63:g}"
+                f"t63 must be >= theta = {self.theta:g} where it counts from the step, found {self.t63:g}"
             )
         _ = self.model  # which has bounds of its own
 

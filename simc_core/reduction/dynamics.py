@@ -109,8 +109,9 @@ def _split_pair(what: str, tau: float, zeta: float, steps: list[Step]) -> list[f
 def _split_lead_pair(T: float, zeta: float, steps: list[Step]) -> list[float]:
     if abs(zeta) < OSCILLATING:
         raise NotReducible(
-            f"complex zeros with |zeta| < {OSCILLATING:g} are not covered by the half rule, got zeta = {number(zeta)} "
-            f"with T = {number(T)}: fit a model without them to the step response, or tune by the margins"
+            f"complex zeros with |zeta| < {OSCILLATING:g} are not covered by the half rule, found zeta = "
+            f"{number(zeta)} with T = {number(T)}: fit a model without them to the step response, or tune by the "
+            "margins"
         )
     sign = math.copysign(1.0, zeta)
     return [sign * time for time in _split_pair("zeros", T, abs(zeta), steps)]
@@ -143,18 +144,18 @@ def _refuse(integrators: int, unstable: list[float], pairs: list[tuple[float, fl
     """What no SIMC model exists for, in words."""
     if integrators > 2:
         raise NotReducible(
-            f"integrators must be <= 2 for the half rule, got {integrators}: no SIMC rule exists beyond that; "
+            f"integrators must be <= 2 for the half rule, found {integrators}: no SIMC rule exists beyond that; "
             "close an inner loop round one of the integrators first (cascade)"
         )
     growing = [zeta for _, zeta in pairs if zeta < 0]
     if len(unstable) + 2 * len(growing) > 1:
         raise NotReducible(
-            f"at most one unstable pole is covered by a SIMC rule, got {len(unstable) + 2 * len(growing)}: "
+            f"at most one unstable pole is covered by a SIMC rule, found {len(unstable) + 2 * len(growing)}: "
             "stabilise the plant by an inner loop first (cascade)"
         )
     if unstable and integrators:
         raise NotReducible(
-            f"an unstable pole together with integrators is not covered by a SIMC rule, got {integrators} of them: "
+            f"an unstable pole together with integrators is not covered by a SIMC rule, found {integrators} of them: "
             "stabilise the plant by an inner loop first (cascade)"
         )
     if not pairs:
@@ -162,19 +163,19 @@ def _refuse(integrators: int, unstable: list[float], pairs: list[tuple[float, fl
     tau0, zeta = pairs[0]
     if len(pairs) > 1:
         raise NotReducible(
-            f"at most one pair of poles with zeta < {OSCILLATING:g} is covered by a SIMC rule, got {len(pairs)}: "
+            f"at most one pair of poles with zeta < {OSCILLATING:g} is covered by a SIMC rule, found {len(pairs)}: "
             "enter a model with the dominant pair alone, or damp the others by an inner loop"
         )
     if unstable or integrators:
         raise NotReducible(
             f"a pair of poles with zeta = {number(zeta)} < {OSCILLATING:g} must be the only slow dynamics, "
-            "got an integrator or an unstable pole beside it: enter a model without the pair if its oscillation "
+            "found an integrator or an unstable pole beside it: enter a model without the pair if its oscillation "
             "is fast, or damp it by an inner loop"
         )
     slowest = max(lags, default=0.0)
     if slowest > tau0:
         raise NotReducible(
             f"a pair of poles with zeta = {number(zeta)} < {OSCILLATING:g} must be the slowest dynamics for the rule "
-            f"of oscillating models, got tau0 = {number(tau0)} beside a lag of {number(slowest)}: "
+            f"of oscillating models, found tau0 = {number(tau0)} beside a lag of {number(slowest)}: "
             "enter a model without the pair if its oscillation is small, or use tau_c large and check the margins"
         )

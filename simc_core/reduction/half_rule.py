@@ -96,7 +96,7 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003",
     h, tau_F = checks.optional_time("h", h), checks.optional_time("tau_F", tau_F)
     late = h + tau_F
     if rules not in RULES:
-        raise InvalidParameter(f'rules must be "2003" or "1998", got {rules!r}')
+        raise InvalidParameter(f'rules must be "2003" or "1998", found {rules!r}')
     parts = dynamics(plant)
     removed = lru_cache(maxsize=None)(partial(_removed, parts))
     reduce = partial(_reduce, plant, parts, removed, late, rules)

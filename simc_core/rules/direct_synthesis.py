@@ -88,7 +88,7 @@ def direct_synthesis(
     """
     lambda_ = checks.positive_time("lambda_", lambda_)
     if kind not in KINDS:
-        raise InvalidParameter(f"kind must be PI or PID, got {str(kind)[:20]}")
+        raise InvalidParameter(f"kind must be PI or PID, found {str(kind)[:20]}")
     h0, h1, h2 = _coefficients(process, lambda_, inside)
     if kind == "PI":
         return ParallelPid(h1, h0, b=b)
@@ -104,7 +104,9 @@ def numerator(process: Plant, lambda_: float, inside: Loop | NestedLoops | None 
 def _order(process: Plant, inside: Loop | NestedLoops | None) -> tuple[float, int]:
     """tau and p."""
     if process.order > MOST_POLES:
-        raise InvalidParameter(f"a block for direct synthesis may have at most {MOST_POLES} poles, got {process.order}")
+        raise InvalidParameter(
+            f"a block for direct synthesis may have at most {MOST_POLES} poles, found {process.order}"
+        )
     if inside is None:
         return process.theta, max(2 * process.order, 1)
     blocks = (inside.plant,) if isinstance(inside, Loop) else inside.blocks

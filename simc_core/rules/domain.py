@@ -8,7 +8,7 @@ def first_order(model: Model, rule: str) -> FirstOrderDelay:
     """The model, which must be k e^{-theta s}/(tau1 s + 1)."""
     if not isinstance(model, FirstOrderDelay):
         raise OutOfDomain(
-            f"model must be a first-order one with dead time for the rule {rule}, got {type(model).__name__}"
+            f"model must be a first-order one with dead time for the rule {rule}, found {type(model).__name__}"
         )
     return model
 
@@ -20,7 +20,7 @@ def reaction_curve(model: Model, rule: str) -> tuple[float, float, float]:
     """
     if isinstance(model, IntegratingDelay):
         if model.tau2:
-            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, got {model.tau2:g}")
+            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, found {model.tau2:g}")
         return model.k_prime * dead_time(model.theta, rule), model.theta, 0.0
     model = lag(model, rule)
     return model.k * model.theta / model.tau1, dead_time(model.theta, rule), model.theta / model.tau1
@@ -30,26 +30,28 @@ def lag(model: Model, rule: str) -> FirstOrderDelay:
     """The first-order model, which must have a lag."""
     model = first_order(model, rule)
     if model.tau1 == 0:
-        raise OutOfDomain(f"tau1 must be > 0 for the rule {rule}, got 0: it is made for a process with a lag")
+        raise OutOfDomain(f"tau1 must be > 0 for the rule {rule}, found 0: it is made for a process with a lag")
     return model
 
 
 def dead_time(theta: float, rule: str) -> float:
     """theta, which must be > 0."""
     if theta == 0:
-        raise OutOfDomain(f"theta must be > 0 for the rule {rule}, got 0: without dead time it has no finite gain")
+        raise OutOfDomain(f"theta must be > 0 for the rule {rule}, found 0: without dead time it has no finite gain")
     return theta
 
 
 def kind_of(kind: str, kinds: tuple[str, ...], rule: str) -> str:
     """The kind of controller, which must be one that the rule has."""
     if kind not in kinds:
-        raise OutOfDomain(f"kind must be {' or '.join(kinds)} for the rule {rule}, got {kind!r}")
+        raise OutOfDomain(f"kind must be {' or '.join(kinds)} for the rule {rule}, found {kind!r}")
     return kind
 
 
 def positive(name: str, value: float, rule: str) -> float:
     """A result of the formula, which must be > 0 to be a setting."""
     if not value > 0:
-        raise OutOfDomain(f"{name} must be > 0, got {value:.4g} from the rule {rule}: the model is outside its domain")
+        raise OutOfDomain(
+            f"{name} must be > 0, found {value:.4g} from the rule {rule}: the model is outside its domain"
+        )
     return value

@@ -58,7 +58,7 @@ def _set_point(model: Model, criterion: str, kind: str) -> IdealPid:
     A, B, C, D, E, F = SET_POINT[criterion, kind]
     if C + D * r <= 0:
         raise OutOfDomain(
-            f"theta/tau1 must be < {-C / D:.3g} for the rule {rule}, got {r:.4g}: tau_I would be negative"
+            f"theta/tau1 must be < {-C / D:.3g} for the rule {rule}, found {r:.4g}: tau_I would be negative"
         )
     return IdealPid(A * r**B / k, tau1 / (C + D * r), E * tau1 * r**F)
 

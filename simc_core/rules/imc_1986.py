@@ -92,9 +92,9 @@ def imc_without_delay(plant: Plant, epsilon: float, ramp: bool = False, all_pass
     eps = checks.positive_time("epsilon", epsilon)
     beta, order = _zero(plant), (plant.integrators, len(plant.lags), len(plant.lag_pairs))
     if not all_pass and (order != (0, 0, 1) or not beta):
-        raise OutOfDomain("all_pass must be True but for an oscillating plant with a zero 1 - beta s, got False")
+        raise OutOfDomain("all_pass must be True but for an oscillating plant with a zero 1 - beta s, found False")
     if ramp and not plant.integrators:
-        raise OutOfDomain("ramp must be False for a plant without integrator, got True")
+        raise OutOfDomain("ramp must be False for a plant without integrator, found True")
     times = sorted(plant.lags)
     match (*order, bool(beta), ramp):
         case (0, 1, 0, False, _):
@@ -105,7 +105,7 @@ def imc_without_delay(plant: Plant, epsilon: float, ramp: bool = False, all_pass
         case (0, 0, 1, _, _):
             tau, zeta = plant.lag_pairs[0]
             if zeta <= 0:
-                raise OutOfDomain(f"zeta must be > 0 for the rule IMC 1986, got {zeta:g}")
+                raise OutOfDomain(f"zeta must be > 0 for the rule IMC 1986, found {zeta:g}")
             below = eps + (2 if all_pass else 1) * beta
             Kc, tau_I, tau_D = 2 * zeta * tau / below, 2 * zeta * tau, tau / (2 * zeta)
             tau_F = beta * eps / below if all_pass else 0.0
@@ -123,7 +123,7 @@ def imc_without_delay(plant: Plant, epsilon: float, ramp: bool = False, all_pass
         case (1, 0, 0, True, True):
             Kc, tau_I, tau_D, tau_F = (2 * eps + beta) / (eps + beta) ** 2, 2 * eps + beta, 0.0, 0.0
         case _:
-            raise OutOfDomain(f"plant must be one of Table I of IMC 1986, got {plant.kind} of order {plant.order}")
+            raise OutOfDomain(f"plant must be one of Table I of IMC 1986, found {plant.kind} of order {plant.order}")
     return IdealPid(Kc / plant.k, tau_I, tau_D, tau_F)
 
 
@@ -132,7 +132,7 @@ def _zero(plant: Plant) -> float:
     if plant.theta or plant.unstable_poles or plant.lead_pairs or any(T > 0 for T in plant.leads[:1]):
         raise OutOfDomain("plant must have no dead time, no unstable pole and no zero but 1 - beta s for IMC 1986")
     if len(plant.leads) > 1:
-        raise OutOfDomain(f"plant must have at most one zero for IMC 1986, got {len(plant.leads)}")
+        raise OutOfDomain(f"plant must have at most one zero for IMC 1986, found {len(plant.leads)}")
     return -plant.leads[0] if plant.leads else 0.0
 
 

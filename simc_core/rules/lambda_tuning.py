@@ -19,7 +19,7 @@ def lambda_tuning(model: Model, kind: str = "PI", lambda_: float | None = None) 
     kind_of(kind, ("PI",), rule)
     if isinstance(model, IntegratingDelay):
         if model.tau2:
-            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, got {model.tau2:g}")
+            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, found {model.tau2:g}")
         if lambda_ is None:
             lambda_ = 3 * dead_time(model.theta, rule)
         time = checks.positive_time("lambda_", lambda_)

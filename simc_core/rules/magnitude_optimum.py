@@ -31,7 +31,7 @@ def symmetrical_optimum(plant: Plant, kind: str = "PI") -> IdealPid:
     rule = "symmetrical optimum"
     kind_of(kind, ("PI",), rule)
     if plant.integrators != 1:
-        raise OutOfDomain(f"integrators must be 1 for the rule {rule}, got {plant.integrators}")
+        raise OutOfDomain(f"integrators must be 1 for the rule {rule}, found {plant.integrators}")
     rest = Plant(plant.k, plant.theta, plant.lags, plant.leads, 0, plant.lag_pairs, plant.lead_pairs)
     k, slope = taylor(self_regulating(rest, rule), 2)
     tau = positive("tau", float(-slope / k), rule)

@@ -7,9 +7,9 @@ from simc_core.plants.plant import Plant
 def self_regulating(plant: Plant, rule: str) -> Plant:
     """The plant, which must be stable and without integrator."""
     if plant.integrators:
-        raise OutOfDomain(f"integrators must be 0 for the rule {rule}, got {plant.integrators}: it needs a gain k")
+        raise OutOfDomain(f"integrators must be 0 for the rule {rule}, found {plant.integrators}: it needs a gain k")
     undamped = sum(zeta == 0 for _, zeta in plant.lag_pairs)
     others = plant.unstable_poles + 2 * undamped
     if others:
-        raise OutOfDomain(f"all poles must lie in the left half plane for the rule {rule}, got {others} that do not")
+        raise OutOfDomain(f"all poles must lie in the left half plane for the rule {rule}, found {others} that do not")
     return plant

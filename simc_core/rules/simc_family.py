@@ -23,7 +23,7 @@ def settings_of(rule: str, model: Model, tau_c: float | None = None) -> Controll
         case "isimc":
             return isimc(model, "PID", tau_c)
         case _:
-            raise InvalidParameter(f"rule must be one of {', '.join(FAMILY)}, got {rule!r}")
+            raise InvalidParameter(f"rule must be one of {', '.join(FAMILY)}, found {rule!r}")
 
 
 def usual_tau_c(rule: str, model: Model) -> float:

@@ -51,7 +51,7 @@ def _gain_delay_lag(model: Model, rule: str) -> tuple[float, float, float | None
     """k, theta, tau1 of a first-order model; k', theta, None of an integrating one."""
     if isinstance(model, IntegratingDelay):
         if model.tau2:
-            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, got {model.tau2:g}")
+            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, found {model.tau2:g}")
         return model.k_prime, dead_time(model.theta, rule), None
     model = first_order(model, rule)
     return model.k, dead_time(model.theta, rule), model.tau1

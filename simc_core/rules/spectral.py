@@ -20,11 +20,11 @@ def spectral(model: Model, kind: str = "PI", Ki: float | None = None) -> SeriesP
     if kind == "PID":
         if not isinstance(model, SecondOrderDelay):
             raise OutOfDomain(
-                f"model must be a second-order one with dead time for the rule {rule}, got {type(model).__name__}"
+                f"model must be a second-order one with dead time for the rule {rule}, found {type(model).__name__}"
             )
         k, T1, T2 = model.k, model.tau1, model.tau2
         if T1 == 0:
-            raise OutOfDomain(f"tau1 must be > 0 for the rule {rule}, got 0")
+            raise OutOfDomain(f"tau1 must be > 0 for the rule {rule}, found 0")
     else:
         first = lag(model, rule)
         k, T1, T2 = first.k, first.tau1, 0.0

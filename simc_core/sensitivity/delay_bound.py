@@ -25,7 +25,7 @@ def delay_bound(loop: Loop) -> float:
     Raises NotStable.
     """
     if stability(loop).verdict != "stable":
-        raise NotStable("a bound for dead-time errors exists for a stable loop only, got one that is not")
+        raise NotStable("a bound for dead-time errors exists for a stable loop only, found one that is not")
     response = FactoredResponse(loop.L)
     gain, power = response.at_infinity
     last = abs(gain) if power == 0 else 0.0

@@ -60,7 +60,7 @@ def ultimate(plant: Plant) -> Ultimate:
                 return Ultimate(sign * gain, 2 * math.pi / omega)
             below = gain
     raise NotReducible(
-        "an ultimate gain must exist for this rule, got a plant whose loop with a P controller does not oscillate at "
+        "an ultimate gain must exist for this rule, found a plant whose loop with a P controller does not oscillate at "
         "any gain: take a rule that starts from a model"
     )
 

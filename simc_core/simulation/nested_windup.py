@@ -44,12 +44,14 @@ def limited(
     """
     rest_within(u_min, u_max)
     if protection not in PROTECTIONS:
-        raise InvalidParameter(f"protection must be one of {', '.join(PROTECTIONS)}, got {protection[:20]}")
+        raise InvalidParameter(f"protection must be one of {', '.join(PROTECTIONS)}, found {protection[:20]}")
     loops = loop.nested if isinstance(loop, CascadeLoop) else loop
     t_end = horizon(loops) if t_end is None else t_end
     system = network(loops)
     if system.Fo[len(loops.blocks), 1]:
-        raise InvalidParameter("theta of the innermost block must be > 0 where it passes a jump of u on at once, got 0")
+        raise InvalidParameter(
+            "theta of the innermost block must be > 0 where it passes a jump of u on at once, found 0"
+        )
     dt = _step(system, t_end)
     t = dt * np.arange(round(t_end / dt) + 1)
     arrives = disturbance2_time + loops.blocks[0].theta
@@ -72,7 +74,7 @@ def _step(system: Network, t_end: float) -> float:
         return t_end / FEWEST_STEPS
     shortest = float(np.min(system.theta))
     if t_end / shortest > MOST_STEPS:
-        raise InvalidParameter(f"t_end must be at most {MOST_STEPS} theta = {MOST_STEPS * shortest:g}, got {t_end:g}")
+        raise InvalidParameter(f"t_end must be at most {MOST_STEPS} theta = {MOST_STEPS * shortest:g}, found {t_end:g}")
     return shortest / whole_steps(FEWEST_STEPS * shortest / t_end)
 
 

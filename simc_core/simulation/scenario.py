@@ -75,7 +75,7 @@ class Scenario:
         if self.t is not None:
             put(self, "t", instants(self.t))
         if not isinstance(self.actuation, Actuation):
-            raise WrongType(f"actuation must be an Actuation, got {type(self.actuation).__name__}")
+            raise WrongType(f"actuation must be an Actuation, found {type(self.actuation).__name__}")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,7 +103,7 @@ def instants(given: ArrayLike) -> np.ndarray:
     """`given` as increasing instants >= 0, shape (n,). Raises InvalidParameter."""
     t = checks.array("t", given, MOST_POINTS)
     if not np.all(np.isfinite(t)) or t[0] < 0 or np.any(np.diff(t) < 0):
-        raise InvalidParameter(f"t must be finite, >= 0 and increasing, got {t[0]:g} ... {t[-1]:g}")
+        raise InvalidParameter(f"t must be finite, >= 0 and increasing, found {t[0]:g} ... {t[-1]:g}")
     if t[-1] > checks.LONGEST_TIME:
-        raise InvalidParameter(f"t must be <= {checks.LONGEST_TIME:g}, got {t[-1]:g}")
+        raise InvalidParameter(f"t must be <= {checks.LONGEST_TIME:g}, found {t[-1]:g}")
     return t

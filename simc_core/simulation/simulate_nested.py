@@ -75,11 +75,11 @@ def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
     if not scenario.actuation.linear:
         raise InvalidParameter(
             "actuation must be left out for nested loops, whose limits are in simulation/nested_windup.py, "
-            f"got {scenario.actuation}"
+            f"found {scenario.actuation}"
         )
     if scenario.setpoint_ramp or scenario.disturbance_ramp:
         given = f"{scenario.setpoint_ramp:g} and {scenario.disturbance_ramp:g}"
-        raise InvalidParameter(f"setpoint_ramp and disturbance_ramp must be 0 for nested loops, got {given}")
+        raise InvalidParameter(f"setpoint_ramp and disturbance_ramp must be 0 for nested loops, found {given}")
     N = len(loop.blocks)
     heights = np.zeros(1 + N)
     heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d

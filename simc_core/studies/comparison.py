@@ -102,7 +102,7 @@ def comparison(
     for key in keys:
         rule_of(key)
     if criterion not in CRITERIA:
-        raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, got {criterion!r}")
+        raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, found {criterion!r}")
     return _rows(_Judge(plant, M, FILTER * scale_of(plant) if tau_F is None else tau_F, criterion), kinds, keys)
 
 

@@ -144,7 +144,7 @@ def sweep(
     values = len(speeds) * (4 * len(times) + 2 * len(at))
     if values > MOST_VALUES:
         raise InvalidParameter(
-            f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, got {values}"
+            f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, found {values}"
         )
     controllers = tuple(
         settings_of(rule, model, each).with_filter(filter_ratio).with_weight(b) for each in speeds.tolist()
@@ -246,5 +246,5 @@ def _at(course: UnitResponses, t: np.ndarray, disturbance_time: float, ramps: tu
 def _tau_c(given: ArrayLike) -> np.ndarray:
     values = np.atleast_1d(np.asarray(given, dtype=float))
     if values.ndim != 1 or not 1 <= values.size <= MOST_TUNINGS:
-        raise InvalidParameter(f"tau_c must be a list of 1 to {MOST_TUNINGS} times, got shape {values.shape}")
+        raise InvalidParameter(f"tau_c must be a list of 1 to {MOST_TUNINGS} times, found shape {values.shape}")
     return np.array([checks.positive_time("tau_c", each) for each in values.tolist()])

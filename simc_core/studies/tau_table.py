@@ -117,7 +117,7 @@ def smallest(judge: Callable[[float], float], limit: float, low: float, high: fl
             break
         best, below = min(best, math.inf if math.isnan(value) else value), above
     else:
-        raise InvalidParameter(f"Ms must be >= {best:.4g}, the least up to tau_c = {high:.4g}, got {limit:g}")
+        raise InvalidParameter(f"Ms must be >= {best:.4g}, the least up to tau_c = {high:.4g}, found {limit:g}")
     below = min(below, above)
     while above / below > 1 + NEAR:
         middle = math.sqrt(below * above)

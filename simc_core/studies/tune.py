@@ -63,7 +63,7 @@ def tune(
 def rule_of(key: str) -> Rule:
     """The rule of that name."""
     if key not in RULES:
-        raise InvalidParameter(f"rule must be one of {', '.join(RULES)}, got {key!r}")
+        raise InvalidParameter(f"rule must be one of {', '.join(RULES)}, found {key!r}")
     return RULES[key]
 
 
@@ -72,7 +72,7 @@ def knob_of(rule: Rule, knobs: dict[str, float | None]) -> float | None:
     for name in knobs:
         if name != rule.knob:
             known = f"only {rule.knob}" if rule.knob else "no parameter of its own"
-            raise InvalidParameter(f"{rule.title} has {known}, got {name}")
+            raise InvalidParameter(f"{rule.title} has {known}, found {name}")
     if rule.knob is None or knobs.get(rule.knob) is None:
         return None
     return checks.real(rule.knob, knobs[rule.knob])
@@ -81,10 +81,10 @@ def knob_of(rule: Rule, knobs: dict[str, float | None]) -> float | None:
 def subject_of(rule: Rule, subject: Model | Ultimate | Plant, kind: str) -> Model | Ultimate | Plant:
     """What the rule needs, made from what is there."""
     if kind not in rule.kinds:
-        raise OutOfDomain(f"kind must be {' or '.join(rule.kinds)} for the rule {rule.title}, got {kind!r}")
+        raise OutOfDomain(f"kind must be {' or '.join(rule.kinds)} for the rule {rule.title}, found {kind!r}")
     if isinstance(subject, Ultimate):
         if rule.needs != "ultimate":
-            raise OutOfDomain(f"subject must be a model or a plant for the rule {rule.title}, got an ultimate point")
+            raise OutOfDomain(f"subject must be a model or a plant for the rule {rule.title}, found an ultimate point")
         return subject
     if isinstance(subject, Model):
         plant = subject.plant
@@ -92,7 +92,7 @@ def subject_of(rule: Rule, subject: Model | Ultimate | Plant, kind: str) -> Mode
         plant = subject
     else:
         raise InvalidParameter(
-            f"subject must be a reduced model, an ultimate point or a plant, got {type(subject).__name__}"
+            f"subject must be a reduced model, an ultimate point or a plant, found {type(subject).__name__}"
         )
     if rule.needs == "ultimate":
         return ultimate(plant)
@@ -109,5 +109,5 @@ def _of_kind(
     """The controller, which must be of the kind asked for: of SIMC the model decides it."""
     found = "PI" if isinstance(controller, IController) or not controller.tau_D else "PID"
     if rule.key in SECOND_ORDER and kind != found:
-        raise OutOfDomain(f"kind must be {found} for the rule {rule.title} and this model, got {kind!r}")
+        raise OutOfDomain(f"kind must be {found} for the rule {rule.title} and this model, found {kind!r}")
     return controller

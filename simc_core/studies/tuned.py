@@ -136,13 +136,13 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
     """Why the rule of an unstable pole ends here, and the order that has a setting, if the other one has."""
     if model.theta == 0:
         return RuleEnds(
-            "theta must be > 0 for the SIMC rule of an unstable pole, got 0: the gain would be without limit; "
+            "theta must be > 0 for the SIMC rule of an unstable pole, found 0: the gain would be without limit; "
             "enter the dead time or the lag of the actuator as part of the plant"
         )
     product = model.a * model.theta
     if product < A_THETA_LIMIT:
         return RuleEnds(error)
-    why = f"a theta must be < {A_THETA_LIMIT:g} for the SIMC rule of an unstable pole, got {number(product, 4)}: "
+    why = f"a theta must be < {A_THETA_LIMIT:g} for the SIMC rule of an unstable pole, found {number(product, 4)}: "
     added = model.theta - plant.theta
     if choices["order"] == 2 or not added > 0:
         return RuleEnds(why + f"theta = {number(model.theta, 4)} is too long for a = {number(model.a, 4)}, shorten it")

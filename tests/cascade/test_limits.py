@@ -25,7 +25,9 @@ from tests.oracles.pairs import PAIRS
 @pytest.mark.parametrize(("pair", "name"), [(5, "primary"), (6, "secondary"), (9, "primary")])
 def test_simc_of_an_unstable_block(pair, name):
     """Of pair 9 both blocks are unstable; the first one looked at is named."""
-    with pytest.raises(InvalidParameter, match=f"{name} must be stable .* got 1 unstable poles: use direct synthesis"):
+    with pytest.raises(
+        InvalidParameter, match=f"{name} must be stable .* found 1 unstable poles: use direct synthesis"
+    ):
         simc_cascade(*PAIRS[pair])
 
 
@@ -146,7 +148,7 @@ def test_a_stable_cascade_round_an_unstable_inner_loop_is_flagged():
 def test_what_cannot_be_asked():
     with pytest.raises(InvalidParameter, match="only one of tau_c_inner and Ms_inner"):
         simc_cascade(*PAIRS[1], tau_c_inner=1.0, Ms_inner=2.0)
-    with pytest.raises(InvalidParameter, match="inner must be PI or PID, got PD"):
+    with pytest.raises(InvalidParameter, match="inner must be PI or PID, found PD"):
         simc_cascade(*PAIRS[1], inner="PD")
     with pytest.raises(NotStable, match="unstable"):
         performance(CascadeLoop(*PAIRS[1], SeriesPid(5.0, 5.0), SeriesPid(1.5, 3.0)))

@@ -205,7 +205,7 @@ def test_near_neutral_loops_with_complex_roots_take_more_work_and_are_refused_be
         assert stability(loop(off)).verdict == "stable"
         assert winding(characteristic([loop(off).L])).work <= MOST_SEGMENTS
     for off in (1e-4, 1e-6, 1e-9):
-        with pytest.raises(InvalidParameter, match=f"<= {MOST_SEGMENTS} segments, got"):
+        with pytest.raises(InvalidParameter, match=f"<= {MOST_SEGMENTS} segments, found"):
             stability(loop(off))
 
 
@@ -221,7 +221,7 @@ def test_millions_of_unstable_poles_are_counted(theta, T, gain):
 
 
 def test_too_many_turns_on_the_axis_are_refused():
-    with pytest.raises(InvalidParameter, match=r"omega theta .* must be <= 1000, got .* = 0.99999999"):
+    with pytest.raises(InvalidParameter, match=r"omega theta .* must be <= 1000, found .* = 0.99999999"):
         stability(chain(1e-10))
 
 

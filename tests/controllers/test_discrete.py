@@ -85,11 +85,11 @@ def test_simulation_does_what_the_law_says(law, limit, h):
 
 
 def test_a_filter_that_would_ring_is_refused():
-    with pytest.raises(InvalidParameter, match=r"tau_F must be >= h/2 = 0.25 .* got 0.1"):
+    with pytest.raises(InvalidParameter, match=r"tau_F must be >= h/2 = 0.25 .* found 0.1"):
         law_for("tustin", ParallelPid(1, 1, 1, 0.1), 0.5)
     assert law_for("tustin", ParallelPid(1, 1), 0.5) is LAWS["tustin"]
 
 
 def test_an_unknown_law_is_refused():
-    with pytest.raises(InvalidParameter, match="law must be one of backward, tustin, got 'forward'"):
+    with pytest.raises(InvalidParameter, match="law must be one of backward, tustin, found 'forward'"):
         Actuation(law="forward")

@@ -354,6 +354,17 @@ def test_bounds_of_a_file():
         read_trend("t;PV\n1;2\n" + "3" * 30_000 + ";4\n5;6\n")
 
 
+def test_a_quote_that_is_never_closed_is_told():
+    with pytest.raises(DataError, match="quote"):
+        read_trend('t;PV;OP\n0;1;2\n1;"1;2\n' + "".join(f"{i};1;3\n" for i in range(2, 40_000)))
+
+
+def test_an_epoch_beyond_all_dates_is_no_traceback():
+    rows = "".join(f"{i};1;3\n" for i in range(1382907437, 1382907637))
+    with pytest.raises(DataError, match=r"must hold numbers within"):
+        read_trend("1382907437323492;27;62\n" + rows)
+
+
 def workbook(cells, sheet="Trend") -> bytes:
     """A minimal xlsx, written by hand after ECMA-376."""
     main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"

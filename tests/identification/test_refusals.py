@@ -31,6 +31,12 @@ def test_pv_that_never_moves():
         identify(Trend(np.arange(100.0), np.full(100, 3.0), np.arange(100) > 50))
 
 
+def test_pv_of_two_values_shows_no_dynamics():
+    t = np.arange(100.0)
+    with pytest.raises(NotIdentifiable, match="PV takes two values only, 0 and 2"):
+        identify(Trend(t, 2 * (t >= 53), t >= 50))
+
+
 @pytest.mark.parametrize("tau_I", [12.0, np.inf])
 @pytest.mark.parametrize("load", [NONE, np.where(np.arange(N) > 100, 1.0, 0.0)])
 def test_a_loop_at_constant_set_point_shows_its_controller(tau_I, load):

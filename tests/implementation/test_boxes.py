@@ -277,7 +277,7 @@ def test_no_integral_action_is_zero_in_one_box_and_9999_in_another():
     assert to_box(IdealPid(2, INF), "siemens_pid_compact").values["Ti"] == 0
     assert to_box(IdealPid(2, INF), "omron_pidat").values["Tik"] == 9999
     assert from_box("omron_pidat", {"P": 500, "Tik": 9999}).tau_I == INF
-    with pytest.raises(BoxError, match=r"TN of Util PID must be from 1e-09 to 1e\+09 s, got inf"):
+    with pytest.raises(BoxError, match=r"TN of Util PID must be from 1e-09 to 1e\+09 s, found inf"):
         to_box(IdealPid(2, INF), "codesys_pid")
 
 
@@ -300,12 +300,12 @@ def test_complex_zeros_have_no_series_box():
 @pytest.mark.parametrize(
     ("design", "key", "field", "nearest", "text"),
     [
-        (IdealPid(0.05, 30), "honeywell_udc", "PB", 1000, r"PB .* from 0.1 to 1000 %, got 2000: the nearest is 1000"),
-        (IdealPid(2, 6000), "honeywell_udc", "RSET", 50, r"RSET .* got 100: the nearest is 50"),
-        (IdealPid(2, 60, 3), "honeywell_udc", "RATE", 0.09, r"\(0 is off\), got 0.05"),
-        (IdealPid(2, 60, 12), "abb_acs880", "derivation time", 10, "must be from 0 to 10 s, got 12"),
-        (IdealPid(2, 20_000), "yokogawa_centum", "I", 10_000, "got 20000"),
-        (IdealPid(5000, 30), "slc500", "Kc", 3276.7, "must be from 0 to 3276.7 %/%, got 5000"),
+        (IdealPid(0.05, 30), "honeywell_udc", "PB", 1000, r"PB .* from 0.1 to 1000 %, found 2000: the nearest is 1000"),
+        (IdealPid(2, 6000), "honeywell_udc", "RSET", 50, r"RSET .* found 100: the nearest is 50"),
+        (IdealPid(2, 60, 3), "honeywell_udc", "RATE", 0.09, r"\(0 is off\), found 0.05"),
+        (IdealPid(2, 60, 12), "abb_acs880", "derivation time", 10, "must be from 0 to 10 s, found 12"),
+        (IdealPid(2, 20_000), "yokogawa_centum", "I", 10_000, "found 20000"),
+        (IdealPid(5000, 30), "slc500", "Kc", 3276.7, "must be from 0 to 3276.7 %/%, found 5000"),
     ],
 )
 def test_what_is_out_of_range_is_refused_with_the_nearest(design, key, field, nearest, text):
@@ -316,7 +316,7 @@ def test_what_is_out_of_range_is_refused_with_the_nearest(design, key, field, ne
 
 
 def test_rounding_to_nothing_is_refused():
-    with pytest.raises(BoxError, match=r"Kc of SLC 500 PID must be >= 0.1, got 0.05"):
+    with pytest.raises(BoxError, match=r"Kc of SLC 500 PID must be >= 0.1, found 0.05"):
         to_box(IdealPid(0.05, 30), "slc500", rounded=True)
 
 
@@ -330,9 +330,9 @@ def test_a_derivative_time_next_to_off_is_rounded_to_what_is_nearer():
     [
         ({"RSET": 1}, "PB of .* must be given"),
         ({"PB": 50, "RSET": 1, "Ti": 3}, "has no field Ti; it has PB, RATE, RSET"),
-        ({"PB": 50, "RSET": 1, "structure": "PID-C"}, "structure must be one of PID-A; PID-B, got 'PID-C'"),
-        ({"PB": -50, "RSET": 1}, "PB .* from 0.1 to 1000 %, got -50"),
-        ({"PB": 50, "RSET": 0}, "RSET .* got 0"),
+        ({"PB": 50, "RSET": 1, "structure": "PID-C"}, "structure must be one of PID-A; PID-B, found 'PID-C'"),
+        ({"PB": -50, "RSET": 1}, "PB .* from 0.1 to 1000 %, found -50"),
+        ({"PB": 50, "RSET": 0}, "RSET .* found 0"),
     ],
 )
 def test_numbers_that_no_box_has_are_refused(values, text):
@@ -341,7 +341,7 @@ def test_numbers_that_no_box_has_are_refused(values, text):
 
 
 def test_a_sign_against_the_action_is_refused():
-    with pytest.raises(BoxError, match=r"KP .* must have the sign of a reverse acting controller, got 2") as refused:
+    with pytest.raises(BoxError, match=r"KP .* must have the sign of a reverse acting controller, found 2") as refused:
         from_box("iec_draft_pid", {"KP": 2, "TR": 30}, "reverse")
     assert refused.value.nearest == -2
     assert from_box("iec_draft_pid", {"KP": 2, "TR": 30}, "direct") == IdealPid(-2, 30, c=1)
@@ -354,7 +354,7 @@ def test_two_filters_in_a_row_are_refused():
 
 
 def test_a_filter_ratio_that_is_too_small_is_refused_with_the_smallest():
-    with pytest.raises(BoxError, match=r"N must be >= 4 tau_D/tau_I - 1 = 3 in pidstd, got 2") as refused:
+    with pytest.raises(BoxError, match=r"N must be >= 4 tau_D/tau_I - 1 = 3 in pidstd, found 2") as refused:
         to_box(IdealPid(1, 5, 5), "matlab_pidstd", N=2)
     assert refused.value.nearest == pytest.approx(3)
     with pytest.raises(BoxError, match="has no ratio N"):
@@ -366,8 +366,8 @@ def test_a_filter_ratio_that_is_too_small_is_refused_with_the_smallest():
     [
         ({"key": "abb_800xa"}, "key must be one of BOXES"),
         ({"key": "slc500", "pv_span": 0}, "pv_span must not be zero"),
-        ({"key": "slc500", "out_span": -100}, "out_span must be > 0, got -100"),
-        ({"key": "slc500", "time_unit": "h"}, "time_unit must be s or min, got 'h'"),
+        ({"key": "slc500", "out_span": -100}, "out_span must be > 0, found -100"),
+        ({"key": "slc500", "time_unit": "h"}, "time_unit must be s or min, found 'h'"),
     ],
 )
 def test_what_is_asked_of_no_box_is_refused(given, text):
@@ -391,7 +391,7 @@ def test_the_two_filters_are_inverse_to_each_other_also_without_integral_action(
 def test_derivative_action_without_a_gain_has_no_filter_ratio():
     with pytest.raises(BoxError, match="filters D by a ratio to P"):
         from_box("schneider_pidff_parallel", {"kp": 0, "ti": 10, "td": 2})
-    with pytest.raises(InvalidParameter, match=r"N must be >= 0.001, got -3"):
+    with pytest.raises(InvalidParameter, match=r"N must be >= 0.001, found -3"):
         to_box(SERIES, "deltav_standard", N=-3)
 
 

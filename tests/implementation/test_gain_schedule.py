@@ -129,14 +129,19 @@ def test_second_order_and_negative_gains():
 @pytest.mark.parametrize(
     ("values", "models", "how", "text"),
     [
-        ((1,), MODELS[:1], {}, "as many, 2 at least, got 1 and 1"),
-        ((1, 2, 3), MODELS[:2], {}, "got 3 and 2"),
-        ((2, 1), MODELS[:2], {}, "values must increase, got 2, 1"),
+        ((1,), MODELS[:1], {}, "as many, 2 at least, found 1 and 1"),
+        ((1, 2, 3), MODELS[:2], {}, "found 3 and 2"),
+        ((2, 1), MODELS[:2], {}, "values must increase, found 2, 1"),
         ((1, math.nan), MODELS[:2], {}, r"values\[1\] must be finite"),
-        ((1, 2), (MODELS[0], IntegratingDelay(1, 1)), {}, "of one kind, got FirstOrderDelay in row 1 and Integrating"),
-        ((1, 2), (MODELS[0], FirstOrderDelay(-1, 1, 8)), {}, "gains must have one sign, got -1 in row 2"),
-        ((1, 2), MODELS[:2], {"between": "Kc"}, "between must be one of model, PB, got 'Kc'"),
-        ((1, 2), (None, None), {}, "reduced models of one kind, got NoneType"),
+        (
+            (1, 2),
+            (MODELS[0], IntegratingDelay(1, 1)),
+            {},
+            "of one kind, found FirstOrderDelay in row 1 and Integrating",
+        ),
+        ((1, 2), (MODELS[0], FirstOrderDelay(-1, 1, 8)), {}, "gains must have one sign, found -1 in row 2"),
+        ((1, 2), MODELS[:2], {"between": "Kc"}, "between must be one of model, PB, found 'Kc'"),
+        ((1, 2), (None, None), {}, "reduced models of one kind, found NoneType"),
     ],
 )
 def test_tables_that_make_no_schedule_are_refused(values, models, how, text):

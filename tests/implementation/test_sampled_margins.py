@@ -124,7 +124,7 @@ def test_the_verdict_holds_for_thousands_of_samples_in_a_dead_time():
     found = sampled_margins(PI, 1 / 3000)
     assert found.Ms == pytest.approx(margins(PI).Ms, rel=3e-4)
     assert not sampled_margins(replace(PI, controller=SeriesPid(13, 8)), 1 / 3000).stable
-    with pytest.raises(InvalidParameter, match=r"h must be >= theta/10000 = 0.0001, got 1e-05"):
+    with pytest.raises(InvalidParameter, match=r"h must be >= theta/10000 = 0.0001, found 1e-05"):
         sampled_margins(PI, 1e-5)
 
 
@@ -171,7 +171,18 @@ def test_the_longest_period_is_none_where_the_law_ends_first():
 def test_what_has_no_sampled_margins_is_refused():
     with pytest.raises(InvalidParameter, match=r"tau_F must be >= h/2 = 0.5"):
         sampled_margins(PID, 1.0, "tustin")
-    with pytest.raises(InvalidParameter, match="loop must be a Loop, got Plant"):
+    with pytest.raises(InvalidParameter, match="loop must be a Loop, found Plant"):
         sampled_margins(PI.plant, 1.0)
     with pytest.raises(NotStable):
         longest_sampling_period(replace(PI, controller=SeriesPid(40, 8)))
+
+
+@pytest.mark.parametrize("theta", [0.0, 1.0])
+def test_a_period_is_found_where_S_has_no_peak_within(theta):
+    """P control of a lag, no dead time: |S| rises to its end at pi/h; Ms grows by 5 % there or nowhere."""
+    loop = Loop(Plant(1, theta, (5,)), SeriesPid(1, math.inf))
+    longest = longest_sampling_period(loop)
+    assert longest > 0
+    if longest < math.inf:
+        grown = sampled_margins(loop, longest).Ms / margins(loop).Ms
+        assert grown == pytest.approx(1.05, rel=1e-3)

@@ -154,7 +154,7 @@ def test_the_header_tells_the_worst_peak_and_the_filter():
         (lambda: ScheduleTable(GainSchedule(*ROWS), 0), "parts must be >= 1"),
         (
             lambda: ScheduleTable(GainSchedule((0, 1), (FirstOrderDelay(1, 1, 0), FirstOrderDelay(2, 1, 0)))),
-            "settings must have an ideal form to be tabulated, got at 0",
+            "settings must have an ideal form to be tabulated, found at 0",
         ),
     ],
 )

@@ -20,7 +20,7 @@ from simc_core import (
 from simc_core.certificate.poles import rightmost
 from simc_core.interop import closed_loop
 
-WORDS = re.escape("1 + L(inf) must not be 0 in a loop without dead time, got 0: u is not defined")
+WORDS = re.escape("1 + L(inf) must not be 0 in a loop without dead time, found 0: u is not defined")
 LOOP = Loop(Plant(-1.0), SeriesPid(1.0, 8.0))  # L = -(8 s + 1)/(8 s)
 NESTED = NestedLoops((LOOP.plant,), (LOOP.controller,))
 LIMITED = Scenario(t_end=5.0, actuation=Actuation(u_max=1.0))

@@ -35,7 +35,7 @@ def test_a_list_in_results_and_a_report_out(loops, tmp_path, capsys):
     assert [line["tag"] for line in found[:2]] == ["FC-101", "TC-205"]
     assert len(found) == 9
     assert float(found[0]["Kc"]) == pytest.approx(4 / (1.2 * 2))  # tau1/(k 2 theta)
-    assert found[5]["refusal"].startswith("k must be one number, got 'x'")
+    assert found[5]["refusal"].startswith("k must be one number, found 'x'")
     assert found[6]["tag"] == "'=1+1"
     said = capsys.readouterr()
     assert "9 loops, 8 tuned, 1 refused" in said.out

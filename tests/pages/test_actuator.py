@@ -116,7 +116,7 @@ def test_what_is_out_of_reach_is_told_in_every_view_once():
 def test_a_limit_beyond_where_OP_is_now_is_refused_on_that_scale():
     app = site()
     app.text_input("widget_u_min").set_value("50").run()
-    assert "Lowest OP must be ≤ 45, which is OP now, got 50" in app.error[0].value
+    assert "Lowest OP must be ≤ 45, which is OP now, found 50" in app.error[0].value
     assert "u_min" not in address(app)
 
 

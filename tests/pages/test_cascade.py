@@ -314,7 +314,7 @@ def test_limits_that_leave_nothing_are_refused_in_words():
     app = opened("Windup")
     app.text_input(key="u_min").set_value("0").run()
     app.text_input(key="u_max").set_value("0").run()
-    assert "must be > $u_{min}$ = 0, got 0" in texts(app)
+    assert "must be > $u_{min}$ = 0, found 0" in texts(app)
     assert not specs(app)
 
 

@@ -55,13 +55,13 @@ def row(factor, tau=None, zeta=None):
 @pytest.mark.parametrize(
     ("rows", "why"),
     [
-        ([row(entries.LAG, "1.0"), row(entries.LAG, "0.0")], "row 2: τ must not be zero, got 0"),
-        ([row(entries.LAG)], "row 1: τ must be a number, got nothing"),
+        ([row(entries.LAG, "1.0"), row(entries.LAG, "0.0")], "row 2: τ must not be zero, found 0"),
+        ([row(entries.LAG)], "row 1: τ must be a number, found nothing"),
         ([row(None, "2.0")], "row 1: choose what kind"),
-        ([row(entries.LAG_PAIR, "2.0")], "row 1: ζ must be a number, got nothing"),
-        ([row(entries.LAG_PAIR, "-2.0", "0.5")], "row 1: τ must be > 0, got -2"),
+        ([row(entries.LAG_PAIR, "2.0")], "row 1: ζ must be a number, found nothing"),
+        ([row(entries.LAG_PAIR, "-2.0", "0.5")], "row 1: τ must be > 0, found -2"),
         ([row(entries.LEAD, "2.0")], "degree of the numerator"),
-        ([row(entries.INTEGRATOR)] * 5, "integrators must be <= 4, got 5"),
+        ([row(entries.INTEGRATOR)] * 5, "integrators must be <= 4, found 5"),
         ([row(entries.LAG, "1e300")], "row 1: "),
         ([row(entries.LAG, "1.0")] * 200, "at most 40"),
     ],

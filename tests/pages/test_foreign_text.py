@@ -57,14 +57,14 @@ def test_exact_is_one_code_span_with_the_very_text(text):
     assert pieces[1].content == printable(text)
 
 
-@given(FOREIGN.filter(str.strip), st.sampled_from(["form must be one of series, ideal, got ", ""]))
+@given(FOREIGN.filter(str.strip), st.sampled_from(["form must be one of series, ideal, found ", ""]))
 def test_a_message_has_words_and_code_spans_and_nothing_else(text, said):
     pieces = inline("Refused: " + told(said + text))
     assert {piece.type for piece in pieces} <= {"text", "code_inline"}
     assert "".join(piece.content for piece in pieces).split() == ("Refused: " + printable(said + text)).split()
 
 
-@pytest.mark.parametrize("message", ["tight, (position 4). got 0.5", "row 2: choose what kind of factor this is"])
+@pytest.mark.parametrize("message", ["tight, (position 4). found 0.5", "row 2: choose what kind of factor this is"])
 def test_plain_words_stay_plain(message):
     assert told(message) == message
 

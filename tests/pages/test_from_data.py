@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileManager
 
 from pages.common.from_data.examples import EXAMPLES
 from pages.common.from_data.work import USUAL, work_on, work_on_example
@@ -38,7 +39,7 @@ def test_without_a_record_the_page_says_what_to_do():
 def test_the_process_of_an_example_is_within_the_intervals(key):
     work = work_on_example(key)
     chosen = Chosen()
-    best = work.fitted(work.part(chosen), chosen, USUAL).found[0]
+    best = work.fitted(work.part(chosen)[0], chosen, USUAL).found[0]
     for name, value in TRUTH[key].items():
         low, high = best.intervals[name]
         room = 0.5 * (high - low)  # 95 % intervals of a dozen numbers: one or the other may just miss
@@ -140,6 +141,24 @@ def test_a_paste_that_is_no_trend_changes_nothing_and_stays():
     assert "nothing changed" in app.error[0].value
     assert app.text_area(key="trend_paste_0").value == "hello <b>world</b>\n"
     assert "Parameters of the model" in html(app)
+
+
+def test_an_uploaded_file_is_read_and_its_memory_given_back(monkeypatch):
+    given_back = []
+    forget = MemoryUploadedFileManager.remove_file
+
+    def remove_file(self, session_id, file_id):
+        forget(self, session_id, file_id)
+        given_back.append(self.get_files(session_id, [file_id]))
+
+    monkeypatch.setattr(MemoryUploadedFileManager, "remove_file", remove_file)
+    app = run_page("from_data")
+    rows = "Zeit [s];PV;OP\n" + "".join(f"{i};{20 + (i > 30)};{5 + (i > 25)}\n" for i in range(60))
+    app.file_uploader(key="trend_file_0").upload("tank.csv", rows.encode("utf-16"), "text/csv").run()
+    assert not app.exception
+    assert given_back == [[]]
+    assert "`tank.csv`" in texts(app)
+    assert "60 samples" in texts(app)
 
 
 def test_roles_can_change_places_and_back():
@@ -304,3 +323,61 @@ def test_every_page_tells_where_an_identified_plant_comes_from():
     for page in ("plant", "tuning"):
         told = [item.proto.help for item in run_page(page, **link).caption if item.proto.help]
         assert any("`a*b*.csv`" in text and "fit 97.0 %, 500 samples" in text and "θ 1.2" in text for text in told)
+
+
+def test_a_part_with_nothing_in_it_leaves_the_figure_and_says_so():
+    app = run_page("from_data", example="step", begin="10", end="11")
+    assert "at least 3 samples" in app.error[0].value
+    assert app.get("plotly_chart")
+    app.text_input(key="part_end").set_value("600").run()
+    assert not app.error
+    assert "591 samples" in texts(app)
+
+
+def pasted(rows: str):
+    app = run_page("from_data")
+    app.text_area(key="trend_paste_0").set_value(rows)
+    next(button for button in app.button if button.label == "Read").click().run()
+    assert not app.exception
+    return app
+
+
+def test_the_decimal_sign_is_asked_for_where_three_digits_follow_every_comma():
+    rows = "t;PV;OP\n" + "".join(
+        f"{i};1,{200 + 5 * max(0, min(i - 32, 60))};{40 if i < 30 else 45}\n" for i in range(120)
+    )
+    app = pasted(rows)
+    assert any("what is the decimal sign?" in item.value for item in app.caption)
+    small = float(re.search(r"<small>k[^<]*</small><b>([\d.]+)", html(app))[1])
+    app.selectbox(key="reading_decimal").set_value(".").run()
+    assert not app.exception
+    large = float(re.search(r"<small>k[^<]*</small><b>([\d.]+)", html(app))[1])
+    assert large == pytest.approx(1000 * small, rel=0.01)
+
+
+def test_rows_without_time_are_asked_how_far_they_are_apart():
+    rows = "PV;OP\n" + "".join(f"{20 + 0.1 * max(0, min(i - 32, 60)):.1f};{40 if i < 30 else 45}\n" for i in range(120))
+    app = pasted(rows)
+    assert "Parameters of the model" not in html(app)
+    app.text_input(key="period").set_value("0,5").run()
+    assert not app.exception
+    assert "every 0.5" in texts(app)
+    assert "Parameters of the model" in html(app)
+
+
+def test_a_unit_of_time_that_is_not_told_can_be_chosen():
+    rows = "t;PV;OP\n" + "".join(
+        f"{i};{20 + 0.1 * max(0, min(i - 32, 60)):.1f};{40 if i < 30 else 45}\n" for i in range(120)
+    )
+    app = pasted(rows)
+    assert any("unit of time is not told" in item.value for item in app.info)
+    app.selectbox(key="reading_time_unit").set_value("min").run()
+    assert not app.exception
+    app.button(key="tune").click().run()
+    assert address(app)["unit"] == "min"
+
+
+def test_a_link_with_a_rare_structure_opens_it():
+    app = run_page("from_data", example="step", structure="inverse")
+    assert app.segmented_control(key="structure").value == "inverse"
+    assert "<small>T</small>" in html(app)

@@ -100,7 +100,7 @@ def test_ways_of_entry_describe_one_plant():
     assert not app.error
     assert address(app)["plant"].startswith("4 exp(-0.5 s)")
     app.text_input(key="plant_polynomials_theta").set_value("-1").run()
-    assert "Dead time θ must be ≥ 0, got −1" in app.error[0].value
+    assert "Dead time θ must be ≥ 0, found −1" in app.error[0].value
     assert address(app)["plant"].startswith("4 exp(-0.5 s)")
     app.segmented_control("plant_way").set_value("Factors").run()
     app.text_input(key="plant_factors_k").set_value("0").run()
@@ -149,7 +149,7 @@ def test_a_project_file_is_opened_and_a_wrong_one_changes_nothing():
     app = run_page("plant", plant="2/(5s+1)", b="0.5")
     wanted = project.dump(Loops((Entry(Design(Plant(7.0, 1.0, (9.0,)), Tuning(2, tau_c=3.0))),)))
     upload(app, "wrong.json", wanted.replace('"version": 2', '"version": 7'))
-    assert "nothing changed: version must be 1 or 2, got 7" in app.error[0].value
+    assert "nothing changed: version must be 1 or 2, found 7" in app.error[0].value
     assert address(app) == {"plant": "2/(5 s + 1)", "order": "1", "b": "0.5"}
     upload(app, "right.json", wanted)
     assert not app.error

@@ -95,16 +95,16 @@ def test_each_field_refuses_in_words_and_the_last_good_value_stays(field):
 @pytest.mark.parametrize(
     ("field", "text", "why"),
     [
-        ("b", "2,5", "b must be ≤ 2, got 2.5"),
-        ("b", "−1", "b must be ≥ 0, got −1"),
-        ("filter", "11", "τF/τD must be ≤ 10, got 11"),
-        ("tau_c", "-3", "τc, exact must be > 0, got −3"),
-        ("tau_c", "1e12", "between 1e-09 and 1e+09, got 1e+12"),
-        ("u_max", "-0,1", "Highest u must be ≥ 0, where the loop is at rest, got −0.1"),
-        ("sampling", "−2", "Sampling of the controller must be ≥ 0, got −2"),
+        ("b", "2,5", "b must be ≤ 2, found 2.5"),
+        ("b", "−1", "b must be ≥ 0, found −1"),
+        ("filter", "11", "τF/τD must be ≤ 10, found 11"),
+        ("tau_c", "-3", "τc, exact must be > 0, found −3"),
+        ("tau_c", "1e12", "between 1e-09 and 1e+09, found 1e+12"),
+        ("u_max", "-0,1", "Highest u must be ≥ 0, where the loop is at rest, found −0.1"),
+        ("sampling", "−2", "Sampling of the controller must be ≥ 0, found −2"),
         ("k", "0", "Gain k must not be zero"),
-        ("theta", "−0,5", "Dead time θ must be ≥ 0, got −0.5"),
-        ("N_outer", "0", "N must be ≥ 0.1, got 0"),
+        ("theta", "−0,5", "Dead time θ must be ≥ 0, found −0.5"),
+        ("N_outer", "0", "N must be ≥ 0.1, found 0"),
     ],
 )
 def test_bounds_are_told_with_field_bound_and_value(field, text, why):

@@ -83,7 +83,7 @@ def test_my_settings_are_typed_as_sizes_with_an_action():
     app.text_input("own_IdealPid_Kc").set_value("2").run()
     assert address(app)["own"] == "ideal~-2~240~0~0~1~0"
     app.text_input("own_IdealPid_Kc").set_value("-3").run()
-    assert "must be > 0, got −3: its sign is the action" in app.error[0].value
+    assert "must be > 0, found −3: its sign is the action" in app.error[0].value
     app.segmented_control("own_action").set_value("reverse").run()
     assert address(app)["own"] == "ideal~2~240~0~0~1~0"
 
@@ -112,7 +112,7 @@ def test_knobs_keep_the_sign_of_a_gain_and_their_bounds():
     assert subject.at({"Kc": 2.0, "tau_I": 30.0, "tau_D": 1.0}).controller == SeriesPid(-2.0, 30.0, 1.0)
     with pytest.raises(InvalidParameter, match="Kc must be within"):
         table.allowed(subject, {"Kc": 1e6})
-    with pytest.raises(InvalidParameter, match="got many"):
+    with pytest.raises(InvalidParameter, match="found many"):
         table.allowed(subject, {"Kc": "many"})
 
 

@@ -70,7 +70,7 @@ def test_rows_are_read_as_people_have_them(text, found):
     [
         ("1 2 3 4", "2 rows at least"),
         ("1 2\n3 4", "row 1 must have 3 to 5 numbers"),
-        ("1 2 -3 4\n2 2 3 4", "row 1: theta must be >= 0, got -3"),
+        ("1 2 -3 4\n2 2 3 4", "row 1: theta must be >= 0, found -3"),
         ("1 2 3 4\n2 2 3", "models must be reduced models of one kind"),
         ("1 2 3 4\n2 -2 3 4", "gains must have one sign"),
         ("1 2 x 4\n2 2 3 4", "row 1"),

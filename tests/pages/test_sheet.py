@@ -55,7 +55,7 @@ def test_limits_of_the_output_stay_on_its_scale_when_the_operating_point_moves()
     moved = put(valve, "OP_now", 60).actuator
     assert (moved.u_min, moved.u_max) == (-60, 40)
     assert put(valve, "OP_now", None).actuator == valve.actuator
-    with pytest.raises(InvalidParameter, match="OP_now must be within the limits of the output, 0 to 100, got 110"):
+    with pytest.raises(InvalidParameter, match="OP_now must be within the limits of the output, 0 to 100, found 110"):
         put(valve, "OP_now", 110)
 
 
@@ -74,9 +74,9 @@ def test_per_cent_of_span():
 
 
 def test_a_range_that_ends_before_it_begins_is_refused():
-    with pytest.raises(InvalidParameter, match="PV_high must be > PV_low = 100, got 20"):
+    with pytest.raises(InvalidParameter, match="PV_high must be > PV_low = 100, found 20"):
         Sheet(PV_low=100, PV_high=20)
-    with pytest.raises(InvalidParameter, match="OP_now must be within 0 to 100, got 145"):
+    with pytest.raises(InvalidParameter, match="OP_now must be within 0 to 100, found 145"):
         Sheet(OP_low=0, OP_high=100, OP_now=145)
 
 

@@ -8,7 +8,7 @@ from pages.common.parts.symbols import sentence, symbols
 @pytest.mark.parametrize(
     ("plain", "shown"),
     [
-        ("tau1 must be > 0, got -0.17", "τ₁ must be > 0, got −0.17"),
+        ("tau1 must be > 0, found -0.17", "τ₁ must be > 0, found −0.17"),
         ("k >= -.5", "k ≥ −.5"),
         ("[SK98] eq. 23-24, 1e-05, 10^-1, second-order", "[SK98] eq. 23-24, 1e-05, 10^-1, second-order"),
     ],

@@ -6,7 +6,9 @@ import re
 import numpy as np
 import pytest
 
-from pages.common.take_home.written import LANGUAGES
+from pages.common.session import links
+from pages.common.studies.single import present_study
+from pages.common.take_home.written import LANGUAGES, written
 from simc_core import BOXES
 from tests.pages.tools import address, copyables, run_page, texts
 
@@ -128,7 +130,7 @@ def test_what_a_form_needs_is_told_in_the_unit_of_the_page():
     """tau_I 2 min < 4 tau_D 4 min: no series form, in minutes as on the page and not in seconds."""
     own = "ideal~1~2~1~0.1~1~0"
     app = run_page("take_home", plant="exp(-s)/(5s+1)", unit="min", own=own, controller="own", box="deltav_series")
-    assert "= 4, got" in app.error[0].value
+    assert "= 4, found" in app.error[0].value
     assert not app.exception
 
 
@@ -162,14 +164,17 @@ def test_every_language_is_written_and_offered_as_a_file(language):
         assert "100.0" in text
 
 
-def test_the_code_of_hours_is_in_seconds_and_runs():
-    """tau_I 8 h = 28800 s: of the first error 1 the integral takes h Kc/tau_I = 360 Kc/28800."""
-    app = in_code(unit="h", sampling="0.1")
-    scope = {}
-    exec(code_of(app), scope)
+@pytest.mark.parametrize(("unit", "seconds"), [("", 1.0), ("s", 1.0), ("min", 1.0), ("h", 3600.0), ("ms", 1e-3)])
+def test_the_code_of_every_time_unit_runs(unit, seconds):
+    """tau_I is 8 of the unit; of the first error 1 the integral takes h Kc/tau_I. Minutes stay minutes."""
+    design, _ = links.decode({"plant": PLANT, "sampling": "0.1"} | ({"unit": unit} if unit else {}))
+    controller = present_study(design).controller
+    text, scope = written(design, controller, controller), {}
+    assert f"h = {0.1 * seconds!r} {'min' if unit == 'min' else 's'}" in text
+    exec(text, scope)
     pid = scope["Pid"]()
     pid.step(0.0, 0.0)
-    assert pid.step(1.0, 0.0) == pytest.approx(4 / 7 * (1 + 360 / 28800), rel=1e-9)
+    assert pid.step(1.0, 0.0) == pytest.approx(4 / 7 * (1 + 0.1 / 8), rel=1e-9)
 
 
 def test_the_code_of_what_is_typed_tells_both():

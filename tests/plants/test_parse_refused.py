@@ -8,9 +8,9 @@ from simc_core import ParseError, Plant, SimcError, parse_plant
 
 TWO_READINGS = {
     # commas and blanks
-    "1,000/(5s+1)": "two ways, got '1,000': write 1000 .* 1.000",
-    "2,500/(1,000s+1)": "two ways, got '2,500'",
-    "1/(12,345s+1)": "two ways, got '12,345'",
+    "1,000/(5s+1)": "two ways, found '1,000': write 1000 .* 1.000",
+    "2,500/(1,000s+1)": "two ways, found '2,500'",
+    "1/(12,345s+1)": "two ways, found '12,345'",
     "exp(-1,500s)/s": "two ways",
     "k=1,234, tau=5": "two ways",
     "tf(1,234,[1 1])": "too many arguments: write decimal points",
@@ -116,7 +116,7 @@ NO_PLANT = {
     "G(s) = 2/(10s+1), [3]": "a decimal comma stands between digits",
     "5*10-3s/(s+1)": r"'10-3' .* two ways",
     "2/(10 S + 1) e^{-3 s}": "two variables, S and s",
-    "num = [0.5 a]; den = [1 3 2]": "'a'|got",
+    "num = [0.5 a]; den = [1 3 2]": "'a'|found",
     "K=2, T=10 min, L=3 min": "'T' must be a number without a unit, all times in the same one: write T = 10",
     "K=2 °C/%, T=10": "'K' must be a number without a unit.*write K = 2",
     "K=2 %/%, T=10": "'K' must be a number without a unit.*write K = 2",
@@ -146,7 +146,7 @@ WORDS = {
     "idproc('P1D','Kp',2)": "'idproc' is not known",
     "https://example.com/?p=2": "is not known|not part",
     "T*dy/dt + y = K*u": "'T' is not known",
-    "tf(a,b)": "numerator must be coefficients, got 'a'",
+    "tf(a,b)": "numerator must be coefficients, found 'a'",
     "tf(1,0)": "denominator must not be zero",
     "ss(-1,1,1,0)": "'ss' is not known: state space is not read: write",
     "control.ss(A,B,C,D)": "'control.ss' is not known: state space",

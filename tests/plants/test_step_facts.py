@@ -67,13 +67,13 @@ def test_another_time_unit_changes_times_and_not_the_gain(dOP, dPV, theta, tau1)
 @pytest.mark.parametrize(
     ("make", "why"),
     [
-        (lambda: SettlingFacts(0, 11, 20, 180), "dOP must not be zero, got 0"),
-        (lambda: SettlingFacts(5, math.nan, 20, 180), "dPV must be finite, got nan"),
-        (lambda: SettlingFacts(5, 11, -1, 180), "theta must be >= 0, got -1"),
-        (lambda: SettlingFacts(5, 11, 20, 19), "t63 must be >= theta = 20 where it counts from the step, got 19"),
-        (lambda: SettlingFacts(1e-9, 1e9, 0, 1), r"\|k\| must be between 1e-12 and 1e\+12, got 1e\+18"),
-        (lambda: SlopeFacts(5, 11, 20, 0), "duration must not be zero, got 0"),
-        (lambda: SlopeFacts(5, 11, 20, -3), "duration must be > 0, got -3"),
+        (lambda: SettlingFacts(0, 11, 20, 180), "dOP must not be zero, found 0"),
+        (lambda: SettlingFacts(5, math.nan, 20, 180), "dPV must be finite, found nan"),
+        (lambda: SettlingFacts(5, 11, -1, 180), "theta must be >= 0, found -1"),
+        (lambda: SettlingFacts(5, 11, 20, 19), "t63 must be >= theta = 20 where it counts from the step, found 19"),
+        (lambda: SettlingFacts(1e-9, 1e9, 0, 1), r"\|k\| must be between 1e-12 and 1e\+12, found 1e\+18"),
+        (lambda: SlopeFacts(5, 11, 20, 0), "duration must not be zero, found 0"),
+        (lambda: SlopeFacts(5, 11, 20, -3), "duration must be > 0, found -3"),
     ],
 )
 def test_a_fact_out_of_bounds_is_named_with_its_bound_and_value(make, why):

@@ -273,13 +273,13 @@ def test_what_pays_and_what_is_said():
     ("plant", "words"),
     [
         (Plant(1, 1, integrators=3), "integrators must be <= 2.*cascade"),
-        (Plant(1, 1, (-5, -2)), "at most one unstable pole.*got 2.*inner loop"),
+        (Plant(1, 1, (-5, -2)), "at most one unstable pole.*found 2.*inner loop"),
         (Plant(1, 1, (-5,), integrators=1), "unstable pole together with integrators"),
-        (Plant(1, 1, lag_pairs=((1, -0.5),)), "at most one unstable pole.*got 2"),
+        (Plant(1, 1, lag_pairs=((1, -0.5),)), "at most one unstable pole.*found 2"),
         (Plant(1, 1, lag_pairs=((1, 0.5), (2, 0.5))), "at most one pair"),
         (Plant(1, 1, lag_pairs=((1, 0.5),), integrators=1), "only slow dynamics"),
         (Plant(1, 1, (2,), lag_pairs=((1, 0.5),)), "slowest dynamics.*beside a lag of 2"),
-        (Plant(1, 1, (1, 1), lead_pairs=((1, 0.5),)), "complex zeros.*got zeta = 0.5"),
+        (Plant(1, 1, (1, 1), lead_pairs=((1, 0.5),)), "complex zeros.*found zeta = 0.5"),
         (Plant(1, 1, (-5,), (2,)), "no lag left"),
     ],
 )
@@ -292,12 +292,12 @@ def test_what_the_rule_does_not_cover(plant, words):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"order": 3}, "order must be <= 2, got 3"),
+        ({"order": 3}, "order must be <= 2, found 3"),
         ({"order": 1.5}, "whole number"),
-        ({"h": -1}, "h must be >= 0, got -1"),
+        ({"h": -1}, "h must be >= 0, found -1"),
         ({"h": math.nan}, "finite"),
-        ({"tau_F": -1}, "tau_F must be >= 0, got -1"),
-        ({"rules": "2005"}, 'rules must be "2003" or "1998", got \'2005\''),
+        ({"tau_F": -1}, "tau_F must be >= 0, found -1"),
+        ({"rules": "2005"}, 'rules must be "2003" or "1998", found \'2005\''),
     ],
 )
 def test_arguments_out_of_bounds(arguments, words):

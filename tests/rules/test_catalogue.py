@@ -209,11 +209,11 @@ def test_outside_its_domain_a_rule_refuses_with_field_and_bound(key, subject, ki
 
 
 def test_unknown_rules_and_parameters_are_named():
-    with pytest.raises(InvalidParameter, match=r"rule must be one of simc, .*got 'zn'"):
+    with pytest.raises(InvalidParameter, match=r"rule must be one of simc, .*found 'zn'"):
         tune("zn", BALANCED)
-    with pytest.raises(InvalidParameter, match="has only tau_c, got lambda_"):
+    with pytest.raises(InvalidParameter, match="has only tau_c, found lambda_"):
         tune("simc", BALANCED, lambda_=1)
-    with pytest.raises(InvalidParameter, match="has no parameter of its own, got tau_c"):
+    with pytest.raises(InvalidParameter, match="has no parameter of its own, found tau_c"):
         tune("amigo", BALANCED, tau_c=1)
     with pytest.raises(InvalidParameter, match="subject must be a reduced model"):
         tune("amigo", "e^-s/(s+1)")

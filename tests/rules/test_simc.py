@@ -183,10 +183,10 @@ def test_presets_of_arbogast_cooper_and_rice():
 @pytest.mark.parametrize(
     ("tau_c", "words"),
     [
-        (0, "> 0, got 0"),
-        (-0.5, "> 0, got -0.5"),
+        (0, "> 0, found 0"),
+        (-0.5, "> 0, found -0.5"),
         (-1, "above -theta"),
-        (-2, "got -2"),
+        (-2, "found -2"),
         (math.nan, "finite"),
         (math.inf, "finite"),
         (1e300, "<= 1e"),
@@ -203,7 +203,7 @@ def test_tau_c_out_of_bounds(model, tau_c, words):
     ("model", "tau_c", "words"),
     [
         (FirstOrderDelay(1, 0, 3), None, "tau_c must be given"),
-        (UnstableDelay(1, 1, 0.1), 2.0, "theta = 1 for an unstable pole, got 2"),
+        (UnstableDelay(1, 1, 0.1), 2.0, "theta = 1 for an unstable pole, found 2"),
         (UnstableDelay(1, 1, 0.5), None, "a theta must be < 0.5"),
         (UnstableDelay(1, 0, 0.5), None, "theta must be > 0"),
         (OscillatingDelay(1, 1, 1, 0), None, "zeta must be > 0"),

@@ -24,18 +24,18 @@ LOOP = Loop(Plant(1, 1, (8,)), SeriesPid(4, 8))
 @pytest.mark.parametrize(
     ("fields", "words"),
     [
-        ({"t_end": 1e12}, "t_end. must be between 1e-09 and 1e[+]09, got 1e[+]12"),
-        ({"t_end": math.inf}, "t_end must be finite, got inf"),
+        ({"t_end": 1e12}, "t_end. must be between 1e-09 and 1e[+]09, found 1e[+]12"),
+        ({"t_end": math.inf}, "t_end must be finite, found inf"),
         ({"t_end": 0}, "t_end must not be zero"),
-        ({"points": 10**9}, "points must be <= 100000, got 1e[+]09"),
+        ({"points": 10**9}, "points must be <= 100000, found 1e[+]09"),
         ({"points": 1}, "points must be >= 2"),
-        ({"points": 10.5}, "points must be a whole number, got 10.5"),
-        ({"disturbance_time": -1.0}, "disturbance_time must be >= 0, got -1"),
-        ({"disturbance": math.nan}, "disturbance must be finite, got nan"),
-        ({"t": np.zeros(10**6)}, "t must be a list of 1 to 100000 numbers, got shape .1000000,."),
-        ({"t": []}, "got shape .0,."),
-        ({"t": "soon"}, "t must be a list of numbers, got 'soon'"),
-        ({"t": [0.0, 1e300]}, "t must be <= 1e[+]09, got 1e[+]300"),
+        ({"points": 10.5}, "points must be a whole number, found 10.5"),
+        ({"disturbance_time": -1.0}, "disturbance_time must be >= 0, found -1"),
+        ({"disturbance": math.nan}, "disturbance must be finite, found nan"),
+        ({"t": np.zeros(10**6)}, "t must be a list of 1 to 100000 numbers, found shape .1000000,."),
+        ({"t": []}, "found shape .0,."),
+        ({"t": "soon"}, "t must be a list of numbers, found 'soon'"),
+        ({"t": [0.0, 1e300]}, "t must be <= 1e[+]09, found 1e[+]300"),
         ({"t": [0.0, math.nan]}, "t must be finite"),
     ],
 )
@@ -47,13 +47,13 @@ def test_scenario(fields, words):
 @pytest.mark.parametrize(
     ("omega", "words"),
     [
-        (np.broadcast_to(1.0, 10**7), "omega must be a list of 1 to 1000000 numbers, got shape .10000000,."),
-        ([], "got shape .0,."),
-        ([1.0, -2.0], "omega must be positive and finite, got -2"),
-        ([1.0, math.inf], "got inf"),
-        ([[1.0]], "got shape .1, 1."),
-        ("fast", "omega must be a list of numbers, got 'fast'"),
-        (None, "positive and finite, got nan|list of numbers"),
+        (np.broadcast_to(1.0, 10**7), "omega must be a list of 1 to 1000000 numbers, found shape .10000000,."),
+        ([], "found shape .0,."),
+        ([1.0, -2.0], "omega must be positive and finite, found -2"),
+        ([1.0, math.inf], "found inf"),
+        ([[1.0]], "found shape .1, 1."),
+        ("fast", "omega must be a list of numbers, found 'fast'"),
+        (None, "positive and finite, found nan|list of numbers"),
     ],
 )
 def test_frequencies(omega, words):
@@ -62,7 +62,7 @@ def test_frequencies(omega, words):
 
 
 def test_saturation_with_a_dead_time_far_below_the_horizon():
-    with pytest.raises(InvalidParameter, match=r"50000 steps for a dead time of 1e-09, got 1e[+]15"):
+    with pytest.raises(InvalidParameter, match=r"50000 steps for a dead time of 1e-09, found 1e[+]15"):
         simulate(Loop(Plant(1, 1e-9, (8,)), SeriesPid(4, 8)), Scenario(t_end=1e6, actuation=Actuation(u_max=1.0)))
 
 

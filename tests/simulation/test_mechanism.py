@@ -127,11 +127,11 @@ def test_sizes_scale_with_the_signals():
 @pytest.mark.parametrize(
     ("given", "text"),
     [
-        ({"resolution": -1}, "resolution must be >= 0, got -1"),
+        ({"resolution": -1}, "resolution must be >= 0, found -1"),
         ({"dead_band": math.nan}, "dead_band must be finite"),
         ({"backlash": 1e13}, "backlash must be <= 1e\\+12"),
         ({"rate_limit": 0}, "rate_limit must not be zero"),
-        ({"rate_limit": -2}, "rate_limit must be > 0, got -2"),
+        ({"rate_limit": -2}, "rate_limit must be > 0, found -2"),
     ],
 )
 def test_sizes_have_bounds(given, text):

@@ -55,7 +55,7 @@ def test_a_jump_passed_on_at_once_is_refused():
 
 
 def test_bounds():
-    with pytest.raises(InvalidParameter, match="u_min must be <= 0, where the loop is at rest, got"):
+    with pytest.raises(InvalidParameter, match="u_min must be <= 0, where the loop is at rest, found"):
         limited(LOOP, 0.1, 0.6)
     with pytest.raises(InvalidParameter, match="protection"):
         limited(LOOP, -1, 1, "all")

@@ -110,8 +110,8 @@ def test_a_sampled_controller_sees_the_ramp_at_its_samples():
 
 
 def test_a_ramp_of_negative_duration_is_refused_and_nested_loops_have_none():
-    with pytest.raises(InvalidParameter, match="setpoint_ramp must be >= 0, got -1"):
+    with pytest.raises(InvalidParameter, match="setpoint_ramp must be >= 0, found -1"):
         Scenario(setpoint_ramp=-1)
     nested = CascadeLoop(Plant(1, 1, (5,)), Plant(1, 0.5, (1,)), SeriesPid(0.5, 5), SeriesPid(0.5, 1))
-    with pytest.raises(InvalidParameter, match="must be 0 for nested loops, got 3 and 0"):
+    with pytest.raises(InvalidParameter, match="must be 0 for nested loops, found 3 and 0"):
         simulate(nested, Scenario(setpoint_ramp=3))

@@ -273,15 +273,15 @@ def test_an_unstable_response_is_cut_off_and_not_infinite():
 @pytest.mark.parametrize(
     ("fields", "words"),
     [
-        ({"u_min": 0.1}, "u_min must be <= 0, where the loop is at rest, got 0.1$"),
-        ({"u_max": -1.0}, "u_max must be >= 0, where the loop is at rest, got -1$"),
-        ({"u_min": 0.0, "u_max": 0.0}, "u_max must be > u_min = 0, got 0"),
-        ({"u_min": math.nan}, "u_min must be finite, got nan"),
-        ({"u_max": "1"}, "u_max must be a number, got '1'"),
+        ({"u_min": 0.1}, "u_min must be <= 0, where the loop is at rest, found 0.1$"),
+        ({"u_max": -1.0}, "u_max must be >= 0, where the loop is at rest, found -1$"),
+        ({"u_min": 0.0, "u_max": 0.0}, "u_max must be > u_min = 0, found 0"),
+        ({"u_min": math.nan}, "u_min must be finite, found nan"),
+        ({"u_max": "1"}, "u_max must be a number, found '1'"),
         ({"u_max": 1e13}, "u_max must be <= 1e[+]12"),
         ({"tracking_time": 0.0}, "tracking_time must not be zero"),
-        ({"tracking_time": -1.0}, "tracking_time must be > 0, got -1"),
-        ({"noise": -0.1}, "noise must be >= 0, got -0.1"),
+        ({"tracking_time": -1.0}, "tracking_time must be > 0, found -1"),
+        ({"noise": -0.1}, "noise must be >= 0, found -0.1"),
         ({"noise": math.inf}, "noise must be finite"),
         ({"seed": 0.5}, "seed must be a whole number"),
         ({"seed": -1}, "seed must be >= 0"),
@@ -295,7 +295,7 @@ def test_the_door_names_field_bound_and_value(fields, words):
 
 
 def test_a_scenario_takes_nothing_else_for_an_actuation():
-    with pytest.raises(TypeError, match="actuation must be an Actuation, got dict"):
+    with pytest.raises(TypeError, match="actuation must be an Actuation, found dict"):
         Scenario(actuation={"u_max": 1.0})
 
 

@@ -29,7 +29,7 @@ def summary(checks: list[Check]) -> None:
     for found in checks:
         if not found.met:
             row = found.reference
-            why = found.fault or f"expected {value_text(row.expected)}, got {value_text(found.ours)}"
+            why = found.fault or f"expected {value_text(row.expected)}, found {value_text(found.ours)}"
             st.error(f"**{row.group}: {row.what}, {row.quantity}** [{row.source.strip('[]')}]: {why}")
 
 

@@ -7,7 +7,7 @@ import streamlit as st
 
 from pages.common.from_data.work import MORE, USUAL, Fits, Work
 from pages.common.parts.structures import TITLES, sign_of
-from pages.common.parts.symbols import sentence
+from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
 from pages.common.session.design import Design
 from simc_core import Identified, Trend
@@ -27,9 +27,14 @@ UNKNOWN = 100.0  # ends of an interval that far apart tell nothing
 UNITS = {"k": (1, 0), "k_prime": (1, -1), "k_double_prime": (1, -2), "zeta": (0, 0), "a": (0, -1)}
 
 
-def fits_of(work: Work, part: Trend, design: Design) -> Fits:
-    """All structures fitted, with a bar while that takes long."""
-    wanted = USUAL + (MORE if state.widget("more_structures") else ())
+def fits_of(work: Work, part: Trend | None, design: Design, why: str) -> Fits:
+    """All structures fitted; none, and why, where there is nothing to fit."""
+    if part is None:
+        return Fits((), why=why)
+    more = state.widget("more_structures") or design.record.structure in MORE
+    wanted = USUAL + (MORE if more else ())
+    if work.is_fitted(design.record, wanted):
+        return work.fitted(part, design.record, wanted)
     with st.spinner("Fitting", show_time=True):
         return work.fitted(part, design.record, wanted)
 
@@ -123,6 +128,7 @@ def _cell(name: str, model: Identified, trend: Trend) -> str:
 
 
 def _cell_html(label: str, value: str, spread: str, unit: str) -> str:
+    value, spread = symbols(value), symbols(spread)
     return f"<div><small>{label}</small><b>{value}</b> <i>{escape(unit)}</i><small>{spread}</small></div>"
 
 

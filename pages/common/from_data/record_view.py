@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages.common.from_data.work import Work, ends_of, moves_of
+from pages.common.from_data.work import ends_of, moves_of
 from pages.common.parts.number_field import number_field
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
@@ -15,9 +15,10 @@ from simc_core.figures.trend import trend_figure
 from simc_core.notation import number
 
 HEIGHT, TALL = 360, 460  # px
+BAD_PIECE = "bad_piece"
 
 
-def figure(work: Work, trend: Trend, design: Design, part: Trend | None, model: Identified | None) -> None:
+def figure(trend: Trend, design: Design, part: Trend | None, model: Identified | None) -> None:
     """PV over OP, with the model and its residuals where there is one."""
     chosen = design.record
     cut = None if chosen.begin is None and chosen.end is None else _part(trend, design)
@@ -79,7 +80,7 @@ def bad_pieces(trend: Trend, design: Design) -> None:
     bad = design.record.bad
     title = f"Left out: {len(bad)}" if bad else "Leave out a bad piece"
     with st.expander(title):
-        given: dict[str, float] = state.lasting("bad_piece", dict)
+        given: dict[str, float] = state.lasting(BAD_PIECE, dict)
         places = st.columns([1, 1, 1], gap="small", vertical_alignment="bottom")
         for name, place in (("from", places[0]), ("to", places[1])):
             number_field(

@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common.from_data.examples import EXAMPLES
+from pages.common.from_data.record_view import BAD_PIECE
 from pages.common.from_data.work import Work, work_on, work_on_example
 from pages.common.parts.foreign_text import exact, told
 from pages.common.session import state
@@ -29,6 +30,7 @@ def choose(design: Design) -> Work | None:
     )
     if upload is not None:
         _read(upload.name, upload.getvalue())
+        state.forget_upload(upload)
         state.make_last(TURN, turn + 1)
         st.rerun()
     with st.expander("Paste"), st.form("paste", border=False):
@@ -79,6 +81,7 @@ def _take_example() -> None:
 def _begin_example(key: str) -> None:
     state.make_last(REFUSED, None)
     state.make_last(WORK, work_on_example(key))
+    state.make_last(BAD_PIECE, {})
     state.change(example=key, begin=None, end=None, bad=(), structure="")
 
 
@@ -91,6 +94,7 @@ def _read(name: str, content: bytes | str) -> bool:
         return False
     state.make_last(WORK, work)
     state.make_last(REFUSED, None)
+    state.make_last(BAD_PIECE, {})
     state.change(example="", begin=None, end=None, bad=(), structure="")
     return True
 

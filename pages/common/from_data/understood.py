@@ -37,7 +37,7 @@ def show(work: Work) -> None:
     if why:
         st.error(told(why))
     with st.expander("What was understood"):
-        st.markdown("\n".join(f"- {told(sentence)}" for sentence in reading.understood))
+        st.markdown("\n".join(f"- {told(sentence.rstrip('.'))}" for sentence in reading.understood))
 
 
 def _role(work: Work, role: str) -> None:

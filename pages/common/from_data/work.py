@@ -5,7 +5,7 @@ from typing import Any
 
 from pages.common.from_data.examples import EXAMPLES, text_of
 from pages.common.session.record import Chosen
-from simc_core import Identified, NotIdentifiable, SimcError, Trend, find_moves, identify_all
+from simc_core import Identified, SimcError, Trend, find_moves, identify_all
 from simc_core.identification.moves import Move
 from simc_core.identification.reading.meaning import Reading, understand
 from simc_core.identification.reading.reader import load
@@ -60,28 +60,43 @@ class Work:
         reading = _understood(table, how)
         self.how, self.table, self.reading, self.fits = how, table, reading, None
 
-    def part(self, chosen: Chosen) -> Trend | None:
-        """The part that is fitted. Raises SimcError where nothing is left of it."""
+    def part(self, chosen: Chosen) -> tuple[Trend | None, str]:
+        """The part that is fitted; None, and why, where there is none."""
         if self.trend is None:
-            return None
-        trend = self.trend
-        if chosen.begin is not None or chosen.end is not None:
-            ends = (chosen.begin, chosen.end)
-            begin, end = (usual if given is None else given for given, usual in zip(ends, ends_of(trend), strict=True))
-            trend = trend.between(begin, end)
-        for low, high in chosen.bad:
-            trend = trend.without(low, high)
-        return trend
+            return None, self.reading.refusal
+        try:
+            return _cut(self.trend, chosen), ""
+        except SimcError as error:
+            return None, str(error)
 
     def fitted(self, trend: Trend, chosen: Chosen, structures: tuple[str, ...]) -> Fits:
         """All structures fitted to this part, kept until another part is asked for."""
-        of = (chosen.begin, chosen.end, chosen.bad, structures)
-        if self.fits is None or self.fits.of != of:
+        if self.fits is None or not self.is_fitted(chosen, structures):
+            of = _asked(chosen, structures)
             try:
                 self.fits = Fits(of, identify_all(trend, structures))
-            except NotIdentifiable as error:
+            except SimcError as error:
                 self.fits = Fits(of, why=str(error))
         return self.fits
+
+    def is_fitted(self, chosen: Chosen, structures: tuple[str, ...]) -> bool:
+        """Whether this part has been fitted."""
+        return self.fits is not None and self.fits.of == _asked(chosen, structures)
+
+
+def _asked(chosen: Chosen, structures: tuple[str, ...]) -> tuple[Any, ...]:
+    return (chosen.begin, chosen.end, chosen.bad, structures)
+
+
+def _cut(trend: Trend, chosen: Chosen) -> Trend:
+    """The part without what is left out. Raises SimcError where nothing is left."""
+    if chosen.begin is not None or chosen.end is not None:
+        ends = (chosen.begin, chosen.end)
+        begin, end = (usual if given is None else given for given, usual in zip(ends, ends_of(trend), strict=True))
+        trend = trend.between(begin, end)
+    for low, high in chosen.bad:
+        trend = trend.without(low, high)
+    return trend
 
 
 def work_on(name: str, content: bytes | str, example: str = "") -> Work:

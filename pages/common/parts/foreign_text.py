@@ -7,7 +7,7 @@ message that may quote it, only plain words and numbers stay outside. Whatever e
 
 import re
 
-WORD = re.compile(r"\(?[^\W\d_]+(?:-[^\W\d_]+)*\)?[,;:]?\.?|\(?-?[0-9]+(?:\.[0-9]+)?(?:e[-+]?[0-9]+)?(?:\)\.?)?[,;:]?")
+WORD = re.compile(r"\(?[^\W\d_]+(?:-[^\W\d_]+)*\)?[,;:?]?\.?|\(?-?[0-9]+(?:\.[0-9]+)?(?:e[-+]?[0-9]+)?(?:\)\.?)?[,;:]?")
 COMPARED = ("<", "<=", ">", ">=", "=")
 UNSEEN = "\N{REPLACEMENT CHARACTER}"
 

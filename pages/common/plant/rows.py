@@ -39,7 +39,7 @@ def plant_of_rows(k: float, theta: float, rows: Iterable[Mapping]) -> Plant:
         if factor is None and not row["tau"] and not row["zeta"]:
             continue
         if factor is None:
-            raise InvalidParameter(f"row {number}: choose what kind of factor this is, got none")
+            raise InvalidParameter(f"row {number}: choose what kind of factor this is, found none")
         if factor == INTEGRATOR:
             integrators += 1
         elif factor in (LAG, LEAD):

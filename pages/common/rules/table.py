@@ -27,7 +27,7 @@ UNITS = {
     **dict.fromkeys(("τI", "τD"), "time"),
     **dict.fromkeys(("IAE load", "IAE set point"), "PV time"),
     "TV load": "OP",
-    "noise gain": "OP/PV",
+    "high-freq. gain": "OP/PV",
 }
 TEXTS = ("rule", "kind", "in domain", "source", "remark")
 
@@ -142,7 +142,7 @@ def _cells(row: Row, equal: bool) -> dict:
         "J": row.J,
         "behind, %": 100 * (0.0 if abs(row.behind) <= EQUAL else row.behind),
         "TV load": row.TV,
-        "noise gain": row.high_frequency_gain,
+        "high-freq. gain": row.high_frequency_gain,
         "in domain": "" if row.key == OPTIMAL else "yes" if row.in_domain else "no",
         "source": "" if row.key == OPTIMAL else RULES[row.key].source.strip("[]"),
         "remark": row.refusal,

@@ -135,7 +135,7 @@ HELP = {
     "J": J_HELP,
     "behind": "How much the criterion is above that of the best controller of this kind with the same Mst.",
     "TV load": "Total variation of u after a unit step of the load.",
-    "noise gain": "|C| at high frequency: Kc τD/τF, Kc for PI.",
+    "high-freq. gain": "|C| at high frequency: Kc τD/τF, Kc for PI.",
     "in domain": "Whether the source recommends the rule for this plant.",
     "remark": "Why there is no loop, where there is none.",
 }

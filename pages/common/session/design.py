@@ -53,7 +53,7 @@ class Tuning:
         put = object.__setattr__
         if not is_speed(self.speed):
             words = ", ".join(WORDS)
-            raise InvalidParameter(f"speed must be one of {words} or like 1.5theta, got {str(self.speed)[:40]}")
+            raise InvalidParameter(f"speed must be one of {words} or like 1.5theta, found {str(self.speed)[:40]}")
         put(self, "order", checks.whole("order", self.order, 1, 2))
         put(self, "h", checks.optional_time("h", self.h))
         put(self, "tau_F", checks.optional_time("tau_F", self.tau_F))
@@ -263,7 +263,7 @@ class Design:
         one_of("source", self.source, SOURCES)
         one_of("box", self.box, ("", *BOXES))
         if self.source == "own" and self.own is None:
-            raise InvalidParameter("own must be given where the controller is my settings, got nothing")
+            raise InvalidParameter("own must be given where the controller is my settings, found nothing")
         object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
         object.__setattr__(self, "facts", of_plant(self.facts, self.plant))
         if self.origin is not None and self.origin.plant != self.plant:
@@ -303,8 +303,8 @@ PLACES: dict[str, tuple[str, str]] = {
     "d_time": ("excitation", "load_time"),
     "r_ramp": ("excitation", "setpoint_ramp"),
     "d_ramp": ("excitation", "disturbance_ramp"),
-    **{f"compared_{name}": ("compared", name) for name in ("plant", "kind", "tau_F", "Ms", "criterion", "rule")},
     **{f"r_{end}": ("excitation", f"setpoint_{end}") for end in ("low", "high", "rate")},
+    **{f"compared_{name}": ("compared", name) for name in ("plant", "kind", "tau_F", "Ms", "criterion", "rule")},
 }
 
 
@@ -335,7 +335,7 @@ def _moved(actuator: Actuator, old: float | None, new: float | None) -> Actuator
     low, high = (None if u is None else u + old - new for u in (actuator.u_min, actuator.u_max))
     if (low or 0.0) > 0 or (high or 0.0) < 0:
         ends = "no limit" if low is None else f"{low + new:g}", "no limit" if high is None else f"{high + new:g}"
-        raise InvalidParameter(f"OP_now must be within the limits of the output, {' to '.join(ends)}, got {new:g}")
+        raise InvalidParameter(f"OP_now must be within the limits of the output, {' to '.join(ends)}, found {new:g}")
     return replace(actuator, u_min=low, u_max=high)
 
 

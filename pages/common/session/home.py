@@ -68,7 +68,7 @@ def _point(i: int, row: Point) -> Point:
     values = checks.items(f"row {i}", row, 5)
     if len(values) not in MODELS:
         raise InvalidParameter(
-            f"row {i} must have 3 to 5 numbers, scheduling value, k, theta, tau1, tau2, got {len(values)}"
+            f"row {i} must have 3 to 5 numbers, scheduling value, k, theta, tau1, tau2, found {len(values)}"
         )
     found = tuple(checks.real(f"row {i}", value) for value in values)
     try:

@@ -121,7 +121,7 @@ def _flat(design: Design) -> dict[str, str]:
 
 def _changed(design: Design, name: str, text: str) -> Design:
     if len(text) > LONGEST_VALUE:
-        raise SimcError(f"at most {LONGEST_VALUE} characters are read, got {len(text)}")
+        raise SimcError(f"at most {LONGEST_VALUE} characters are read, found {len(text)}")
     if name not in PLACES:
         raise SimcError("no parameter has this name")
     return put(design, name, origin_of(text, design.plant) if name == "origin" else _read(name, text))
@@ -196,11 +196,11 @@ def settings_of(text: str) -> Controller:
     """The controller of a text. Raises SimcError."""
     form, *values = text.split("~")
     if form not in FORM_NAMES:
-        raise SimcError(f"settings begin with one of {', '.join(FORM_NAMES)}, got {form[:20]}")
+        raise SimcError(f"settings begin with one of {', '.join(FORM_NAMES)}, found {form[:20]}")
     kind = FORM_NAMES[form]
     wanted = len(kind.SETTINGS) + len(kind.OPTIONAL)
     if len(values) != wanted:
-        raise SimcError(f"settings in {form} form have {wanted} values separated by ~, got {len(values)}")
+        raise SimcError(f"settings in {form} form have {wanted} values separated by ~, found {len(values)}")
     return kind(*(_read("settings", value) for value in values))
 
 
@@ -220,9 +220,9 @@ def facts_of(text: str) -> StepFacts:
     """The facts of a text. Raises SimcError."""
     word, *values = text.split("~")
     if word not in ("step", "movement", "slope"):
-        raise SimcError(f"facts begin with one of step, movement, slope, got {word[:20]}")
+        raise SimcError(f"facts begin with one of step, movement, slope, found {word[:20]}")
     if len(values) != 4:
-        raise SimcError(f"facts of a step test have 4 values separated by ~, got {len(values)}")
+        raise SimcError(f"facts of a step test have 4 values separated by ~, found {len(values)}")
     numbers = [_read("facts of a step test", value) for value in values]
     return SlopeFacts(*numbers) if word == "slope" else SettlingFacts(*numbers, word == "movement")
 
@@ -238,6 +238,6 @@ def _pin(text: str) -> Tuning | Controller:
     if values[0] in FORM_NAMES:
         return settings_of(text)
     if not 0 <= len(TUNING_FIELDS) - len(values) <= 3:  # links of before have no speed, tau_F or rule
-        raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, got {len(values)}")
+        raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, found {len(values)}")
     given = dict(zip(TUNING_FIELDS, values, strict=False))
     return Tuning(**{name: _read(name, value) for name, value in given.items() if value})

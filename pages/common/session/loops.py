@@ -34,9 +34,9 @@ class Loops:
 
     def __post_init__(self):
         if not 1 <= len(self.entries) <= MOST_LOOPS:
-            raise InvalidParameter(f"a list holds 1 to {MOST_LOOPS} loops, got {len(self.entries)}: delete one first")
+            raise InvalidParameter(f"a list holds 1 to {MOST_LOOPS} loops, found {len(self.entries)}: delete one first")
         if not 0 <= self.current < len(self.entries):
-            raise InvalidParameter(f"the loop in use must be one of {len(self.entries)}, got {self.current + 1}")
+            raise InvalidParameter(f"the loop in use must be one of {len(self.entries)}, found {self.current + 1}")
 
     @property
     def design(self) -> Design:

@@ -30,7 +30,7 @@ def dump(loops: Loops) -> str:
 def load(data: bytes) -> tuple[Loops | None, str]:
     """The loops of a file, or None and the reason in words. All of it must be right, or none is taken."""
     if len(data) > LARGEST:
-        return None, f"a project file has at most {LARGEST} bytes, got {len(data)}"
+        return None, f"a project file has at most {LARGEST} bytes, found {len(data)}"
     try:
         content = json.loads(data.decode("utf-8-sig"))  # Windows puts a mark before the text
         json.dumps(content, ensure_ascii=False).encode()
@@ -42,7 +42,7 @@ def load(data: bytes) -> tuple[Loops | None, str]:
         return None, f'it is not a project file of this program: "format" must be "{FORMAT}"'
     version = content.get("version")
     if isinstance(version, bool) or version not in (1, VERSION):
-        return None, f"version must be 1 or {VERSION}, got {str(version)[:40]}"
+        return None, f"version must be 1 or {VERSION}, found {str(version)[:40]}"
     if version == 1:
         content = {"loops": [content], "current": 0}
     try:

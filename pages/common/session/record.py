@@ -45,15 +45,15 @@ class Chosen:
 
     def __post_init__(self) -> None:
         if len(self.example) > LONGEST_KEY or (not self.example.replace("_", "a").isalnum() and self.example):
-            raise InvalidParameter(f"example must be a key of at most {LONGEST_KEY} letters, got {self.example[:30]}")
+            raise InvalidParameter(f"example must be a key of at most {LONGEST_KEY} letters, found {self.example[:30]}")
         if self.structure not in ("", *STRUCTURES):
-            raise InvalidParameter(f"structure must be one of {', '.join(STRUCTURES)}, got {self.structure[:30]}")
+            raise InvalidParameter(f"structure must be one of {', '.join(STRUCTURES)}, found {self.structure[:30]}")
         for name in ("begin", "end"):
             if getattr(self, name) is not None:
                 number = checks.real(name, getattr(self, name), -LARGEST_INSTANT, LARGEST_INSTANT)
                 object.__setattr__(self, name, number)
         if self.begin is not None and self.end is not None and not self.begin < self.end:
-            raise InvalidParameter(f"end must be > begin = {self.begin:g}, got {self.end:g}")
+            raise InvalidParameter(f"end must be > begin = {self.begin:g}, found {self.end:g}")
         for low, high in checks.items("bad", self.bad, MOST_BAD):
             checks.real("end of a bad stretch", high, checks.real("bad", low, -LARGEST_INSTANT), LARGEST_INSTANT)
 
@@ -76,10 +76,10 @@ class Origin:
     def __post_init__(self) -> None:
         put = object.__setattr__
         if self.structure not in PARAMETERS:
-            raise InvalidParameter(f"structure must be one of {', '.join(PARAMETERS)}, got {self.structure[:30]}")
+            raise InvalidParameter(f"structure must be one of {', '.join(PARAMETERS)}, found {self.structure[:30]}")
         wanted = len(PARAMETERS[self.structure])
         if len(self.errors) != wanted:
-            raise InvalidParameter(f"{self.structure} has {wanted} standard errors, got {len(self.errors)}")
+            raise InvalidParameter(f"{self.structure} has {wanted} standard errors, found {len(self.errors)}")
         put(
             self, "errors", tuple(checks.real("standard error", each, 0.0, checks.LARGEST_GAIN) for each in self.errors)
         )
@@ -109,7 +109,7 @@ def origin_of(text: str, plant: Plant) -> Origin:
     """The origin of this plant. Raises SimcError."""
     structure, *rest = text.split("~")
     if structure not in PARAMETERS:
-        raise SimcError(f"origin begins with one of {', '.join(PARAMETERS)}, got {structure[:20]}")
+        raise SimcError(f"origin begins with one of {', '.join(PARAMETERS)}, found {structure[:20]}")
     count = 2 + len(PARAMETERS[structure])
     try:
         fit, samples, *errors = (float(each) for each in rest[:count])

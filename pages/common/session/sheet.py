@@ -45,7 +45,7 @@ class Sheet:
             put(self, name, _text(name, getattr(self, name), longest))
         if self.time_unit and self.time_unit not in TIME_UNITS:
             units = ", ".join(TIME_UNITS)
-            raise InvalidParameter(f"time unit must be one of {units} or empty, got {str(self.time_unit)[:20]}")
+            raise InvalidParameter(f"time unit must be one of {units} or empty, found {str(self.time_unit)[:20]}")
         for signal in ("PV", "OP"):
             for end in ("low", "high", "now"):
                 name = f"{signal}_{end}"
@@ -54,10 +54,10 @@ class Sheet:
                     put(self, name, number)
             low, high, now = (getattr(self, f"{signal}_{end}") for end in ("low", "high", "now"))
             if low is not None and high is not None and not low < high:
-                raise InvalidParameter(f"{signal}_high must be > {signal}_low = {low:g}, got {high:g}")
+                raise InvalidParameter(f"{signal}_high must be > {signal}_low = {low:g}, found {high:g}")
             least, most = (-math.inf if low is None else low), (math.inf if high is None else high)
             if now is not None and not least <= now <= most:
-                raise InvalidParameter(f"{signal}_now must be within {least:g} to {most:g}, got {now:g}")
+                raise InvalidParameter(f"{signal}_now must be within {least:g} to {most:g}, found {now:g}")
 
     @property
     def per_cent_of_span(self) -> float | None:
@@ -96,12 +96,12 @@ def ratio(old: str, new: str) -> Fraction:
 def _text(name: str, given, longest: int) -> str:
     text = "".join(c if c.isprintable() else " " for c in str(given)).strip()
     if len(text) > longest:
-        raise InvalidParameter(f"{name} may have at most {longest} characters, got {len(text)}")
+        raise InvalidParameter(f"{name} may have at most {longest} characters, found {len(text)}")
     return text
 
 
 def one_of(name: str, value, choices: Iterable[str]) -> str:
     """`value`, which must be one of `choices`. Raises InvalidParameter."""
     if value not in choices:
-        raise InvalidParameter(f"{name} must be one of {', '.join(choices)}, got {str(value)[:40]}")
+        raise InvalidParameter(f"{name} must be one of {', '.join(choices)}, found {str(value)[:40]}")
     return value

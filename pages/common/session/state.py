@@ -16,6 +16,8 @@ from time import monotonic
 from typing import Any
 
 import streamlit as st
+from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileManager
+from streamlit.runtime.scriptrunner import get_script_run_ctx
 
 from pages.common.session import links, project
 from pages.common.session.design import Cascade, Design, Tuning, get, put
@@ -219,6 +221,13 @@ def lasting(name: str, start: Callable[[], Any]) -> Any:
 def make_last(name: str, thing: Any) -> None:
     """Replace what `lasting(name)` gives."""
     st.session_state[f"lasting_{name}"] = thing
+
+
+def forget_upload(upload: Any) -> None:
+    """Give an uploaded file's memory back; Streamlit itself keeps every file until its session ends."""
+    context = get_script_run_ctx()
+    if context is not None and isinstance(context.uploaded_file_mgr, MemoryUploadedFileManager):
+        context.uploaded_file_mgr.remove_file(context.session_id, upload.file_id)
 
 
 def widget(key: str, default: Any = None) -> Any:

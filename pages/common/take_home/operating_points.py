@@ -24,7 +24,7 @@ def points_of(text: str) -> tuple[Point, ...]:
         tuple(read_numbers(f"row {i}", line.replace("\t", " ").strip())) for i, line in enumerate(lines, start=1)
     )
     if len(points) == 1:
-        raise InvalidParameter("a schedule has 2 rows at least, got 1")
+        raise InvalidParameter("a schedule has 2 rows at least, found 1")
     return Home(points=points).points
 
 

@@ -62,7 +62,8 @@ def rows(key: str, found: Typed, sheet: Sheet) -> list[dict[str, str]]:
     units |= {PV_FILTER: "s", STRUCTURE: ""}
     shown = [{"field": name, "value": _value(value), "unit": units[name]} for name, value in found.values.items()]
     word = box.actions[0 if found.action == "reverse" else 1]
-    return [*shown, {"field": "action", "value": word, "unit": "" if word == found.action else found.action}]
+    field, _, value = word.rpartition(" = ")  # InvertControl = FALSE, or the word alone
+    return [*shown, {"field": field or "action", "value": value, "unit": "" if value == found.action else found.action}]
 
 
 def as_text(shown: list[dict[str, str]]) -> str:

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from datetime import date
+from fractions import Fraction
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -41,7 +42,8 @@ LANGUAGES: Mapping[str, Language] = MappingProxyType(
 
 def written(design: Design, controller: Controller, made_from: Controller) -> str:
     """The controller, in seconds or minutes. made_from: the design behind it. Raises SimcError."""
-    unit, seconds = ("min", 1) if design.sheet.time_unit == "min" else ("s", seconds_of(design.sheet))
+    minutes = design.sheet.time_unit == "min"
+    unit, seconds = ("min", Fraction(1)) if minutes else ("s", seconds_of(design.sheet))
     low, high = limits(design)
     given = {"u_min": low, "u_max": high}
     h, T_t = (None if time is None else time * seconds for time in (design.actuator.h, design.actuator.tracking_time))

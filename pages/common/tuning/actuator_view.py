@@ -147,7 +147,7 @@ def _limit(word: str, name: str, design: Design, under: DeltaGenerator) -> None:
         beyond = value > sheet.OP_now if name == "u_min" else value < sheet.OP_now
         if beyond:
             sign = "<=" if name == "u_min" else ">="
-            raise InvalidParameter(f"{label} must be {sign} {sheet.OP_now:g}, which is OP now, got {value:g}")
+            raise InvalidParameter(f"{label} must be {sign} {sheet.OP_now:g}, which is OP now, found {value:g}")
         return sheet.off_scale(value)
 
     design_number(

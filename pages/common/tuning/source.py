@@ -94,7 +94,7 @@ def _field(controller: Controller, name: str, key: str, take: Callable, place) -
 
     def changed(number: float | None) -> Controller:
         if number is not None and number < 0 and name in MAIN:
-            raise InvalidParameter(f"{LABELS[name]} must be > 0, got {number:g}: its sign is the action")
+            raise InvalidParameter(f"{LABELS[name]} must be > 0, found {number:g}: its sign is the action")
         return replace(controller, **{name: math.inf if number is None else sign * number})
 
     number_field(

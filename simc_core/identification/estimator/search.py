@@ -82,7 +82,7 @@ def _lags(problem: Problem) -> list[Array]:
     record = min(problem.records, key=lambda one: one.interval)
     span = max(one.span for one in problem.records)
     # finer where the samples are finer, but never finer than the means that the grid is worked on
-    shortest = max(0.3 * record.interval, span / 1000)
+    shortest = 0.3 * max(record.interval, float(np.median(np.diff(record.t))))
     times = np.log(np.geomspace(shortest, 3 * span, LAGS))
     if len(names) == 1:
         return [np.array([time]) for time in times]

@@ -53,13 +53,9 @@ def resolution(y: Array) -> float:
     """
     values = np.unique(y)
     if values.size < 3 or values.size > 0.5 * y.size:
-        return _coarse(values) if values.size < 3 else 0.0
+        return 0.0
     steps = np.diff(values)
     step = float(np.quantile(steps, 0.1))
     multiples = steps / step
     off = np.abs(multiples - np.round(multiples))
     return step if np.mean(off < 0.02 * np.maximum(np.round(multiples), 1)) > 0.95 else 0.0
-
-
-def _coarse(values: Array) -> float:
-    return float(values[1] - values[0]) if values.size == 2 else 0.0

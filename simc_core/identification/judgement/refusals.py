@@ -23,6 +23,12 @@ def refuse_before(trend: Trend) -> None:
         )
     if float(np.ptp(trend.y)) == 0:
         raise NotIdentifiable(f"PV never moves: it is {trend.y[0]:g} throughout. Is it the right column?")
+    values = np.unique(trend.y)
+    if values.size == 2:
+        raise NotIdentifiable(
+            f"PV takes two values only, {values[0]:g} and {values[1]:g}: it is written as coarsely as it moves, so "
+            "that neither dead time nor lag shows. Record PV with more digits."
+        )
     if trend.t_u is None and trend.r is not None and np.array_equal(trend.r, trend.u) and np.ptp(trend.u) > 0:
         raise NotIdentifiable("OP and SP are the same series. Take the output of the controller for OP.")
     _refuse_unexcited(trend)

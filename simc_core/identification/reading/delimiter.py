@@ -51,17 +51,23 @@ def delimiter_of(lines: list[str], given: str | None = None) -> tuple[str, str]:
 
 
 def cells_of(lines: list[str], delimiter: str) -> Iterator[list[str]]:
-    """The cells of each line, stripped."""
+    """The cells of each line, stripped. Raises DataError where a quote is never closed."""
     if delimiter == BLANKS:
-        return (line.split() for line in lines)
-    return ([cell.strip() for cell in row] for row in csv.reader(lines, delimiter=delimiter, skipinitialspace=True))
+        yield from (line.split() for line in lines)
+        return
+    reader = csv.reader(lines, delimiter=delimiter, skipinitialspace=True)
+    try:
+        yield from ([cell.strip() for cell in row] for row in reader)
+    except csv.Error as error:
+        why = f"the cells cannot be told apart ({error}): is a quote never closed?"
+        raise DataError(why, line=max(reader.line_num, 1)) from None
 
 
 def _score(lines: list[str], delimiter: str) -> float:
     """Share of lines with the usual number of cells, times that of readable cells; 0 where there is one column."""
     try:
         rows = list(cells_of(lines, delimiter))
-    except csv.Error:
+    except DataError:
         return 0.0
     usual, count = Counter(map(len, rows)).most_common(1)[0]
     if usual < 2 or usual > MOST_COLUMNS:

@@ -28,6 +28,7 @@ NAMED = re.compile(
 )
 COUNTED = re.compile(r"(index|idx|no\.?|nr\.?|n|#|row|sample|count\w*|id|column 1|unnamed.*)", re.IGNORECASE)
 KEPT_UNITS = ("s", "min", "h")  # others become seconds
+LAST_DATE = 2e11  # seconds since 1970: in the year 8307
 RISING = 0.98  # of the steps of a column that is time
 
 
@@ -117,7 +118,7 @@ def _is_clock(shape: Shape | None) -> bool:
 
 def _begin(values: NDArray[np.float64], clock: bool) -> str:
     good = values[np.isfinite(values)]
-    if clock or good.size == 0:
+    if clock or good.size == 0 or abs(good[0]) > LAST_DATE:
         return ""
     first = datetime.datetime.fromtimestamp(float(good[0]), datetime.UTC)
     return f", from {first:%Y-%m-%d %H:%M:%S}"

@@ -98,7 +98,7 @@ def to_box(
     sign = math.copysign(1.0, form.Kp or form.Ki)
     positive = design.rescaled(gain=sign)
     if N is not None and box.filter != "ratio":
-        raise BoxError(f"{box.title} has no ratio N of derivative time to filter time to choose, got N = {N}", "N", N)
+        raise BoxError(f"{box.title} has no ratio N of derivative time to filter time to choose, found N = {N}", "N", N)
     N = None if N is None else checks.real("N", N, *RATIOS)
     law, pv_filter, warnings = LAWS[box.form].forward(positive, box, N)
     action = "reverse" if sign > 0 else "direct"
@@ -160,7 +160,7 @@ def from_box(
     """
     box, spans, seconds = _box(key), _spans(pv_span, out_span), _seconds(time_unit)
     if action not in ("reverse", "direct"):
-        raise InvalidParameter(f"action must be reverse or direct, got {action!r}")
+        raise InvalidParameter(f"action must be reverse or direct, found {action!r}")
     names = {field.name for field in box.fields}
     unknown = [name for name in values if name not in names | {STRUCTURE, PV_FILTER}]
     if unknown:
@@ -178,7 +178,7 @@ def from_box(
             if number < 0:
                 raise BoxError(
                     f"{field.name} of {box.title} must have the sign of a {action} acting controller, "
-                    f"got {values[field.name]}",
+                    f"found {values[field.name]}",
                     field.name,
                     given,
                     -given,
@@ -188,13 +188,13 @@ def from_box(
     structure = values.get(STRUCTURE, next(iter(box.structures), None))
     if box.structures:
         if not isinstance(structure, str) or structure not in box.structures:
-            raise BoxError(f"{STRUCTURE} must be one of {'; '.join(box.structures)}, got {structure!r}", STRUCTURE)
+            raise BoxError(f"{STRUCTURE} must be one of {'; '.join(box.structures)}, found {structure!r}", STRUCTURE)
         law["b"], law["c"] = box.structures[structure]
     pv_filter = checks.optional_time(PV_FILTER, values.get(PV_FILTER, 0.0))
     found = LAWS[box.form].back(law, box)
     if pv_filter and found.tau_F:
         raise BoxError(
-            f"{PV_FILTER} must be 0 beside the filter of {box.title} itself, got {pv_filter:g}: "
+            f"{PV_FILTER} must be 0 beside the filter of {box.title} itself, found {pv_filter:g}: "
             "a controller has one filter here",
             PV_FILTER,
             pv_filter,
@@ -212,18 +212,18 @@ def _of_the_box(box: Box) -> list[str]:
 
 def _box(key: str) -> Box:
     if key not in BOXES:
-        raise InvalidParameter(f"key must be one of BOXES ({', '.join(BOXES)}), got {key!r}")
+        raise InvalidParameter(f"key must be one of BOXES ({', '.join(BOXES)}), found {key!r}")
     return BOXES[key]
 
 
 def _spans(pv_span: float, out_span: float) -> Spans:
     for name, span in (("pv_span", pv_span), ("out_span", out_span)):
         if checks.gain(name, span) < 0:
-            raise InvalidParameter(f"{name} must be > 0, got {span:g}")
+            raise InvalidParameter(f"{name} must be > 0, found {span:g}")
     return Spans(float(pv_span), float(out_span))
 
 
 def _seconds(time_unit: str) -> int:
     if time_unit not in SECONDS:
-        raise InvalidParameter(f"time_unit must be s or min, got {time_unit!r}")
+        raise InvalidParameter(f"time_unit must be s or min, found {time_unit!r}")
     return SECONDS[time_unit]

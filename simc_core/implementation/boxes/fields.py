@@ -32,7 +32,7 @@ def numbers(box: Box, law: Quantities, spans: Spans, round_off: bool, put: list[
                 if name == "gain" and law[name] and not number:
                     assert field.step is not None  # else nothing was rounded
                     raise BoxError(
-                        f"{field.name} of {box.title} must be >= {field.step:g}, got {exact:g}",
+                        f"{field.name} of {box.title} must be >= {field.step:g}, found {exact:g}",
                         field.name,
                         0.0,
                         field.step,
@@ -101,7 +101,7 @@ def check(box: Box, field: Field, number: float) -> None:
     off = "" if field.off is None else f" ({field.off:g} is off)"
     there = "" if math.isnan(nearest) else f": the nearest is {nearest:g}"
     raise BoxError(
-        f"{field.name} of {box.title} must be {bounds} {field.unit}".rstrip() + f"{off}, got {number:g}{there}",
+        f"{field.name} of {box.title} must be {bounds} {field.unit}".rstrip() + f"{off}, found {number:g}{there}",
         field.name,
         number,
         nearest,

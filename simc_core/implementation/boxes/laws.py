@@ -61,7 +61,7 @@ class _IdealOrParallel:
         tau_F = fixed_ratio_filter(whole, N)
         if tau_F is None:
             needed = 4 * whole.Kd * whole.Ki / whole.Kp**2 - 1
-            raise BoxError(f"N must be >= 4 tau_D/tau_I - 1 = {needed:g} in {box.title}, got {N:g}", "N", N, needed)
+            raise BoxError(f"N must be >= 4 tau_D/tau_I - 1 = {needed:g} in {box.title}, found {N:g}", "N", N, needed)
         if abs(tau_F - whole.tau_F) > SAME_NUMBER * tau_F:
             warnings.append(
                 f"the filter of the box, N = {N:g}, makes tau_F = {tau_F:g} s, the design has {whole.tau_F:g} s"
@@ -78,7 +78,7 @@ class _IdealOrParallel:
         Tf = law.get("Tf", 0.0)
         if box.filter in ("ratio", "fixed") and Kd:
             if not Kp:
-                raise BoxError(f"{box.title} filters D by a ratio to P, which must not be 0 then, got 0", "", 0.0)
+                raise BoxError(f"{box.title} filters D by a ratio to P, which must not be 0 then, found 0", "", 0.0)
             Tf = Kd / Kp / _ratio(law, box)
         own = DerivativeFiltered(factor * Kp, factor * Ki, factor * Kd, Tf, law.get("b", 1.0), law.get("c", 0.0))
         whole = whole_filtered(own)

@@ -33,7 +33,7 @@ def arduino(program: Program) -> str:
     if not -1e30 < u_min < u_max < 1e30:
         raise InvalidParameter("u_min and u_max must be given for an Arduino, which has to scale its output")
     if not 1e-4 <= seconds <= LONGEST_PERIOD:
-        raise InvalidParameter(f"h must be from 0.0001 to {LONGEST_PERIOD:g} s for an Arduino, got {seconds:g} s")
+        raise InvalidParameter(f"h must be from 0.0001 to {LONGEST_PERIOD:g} s for an Arduino, found {seconds:g} s")
     dead = dead_error(max(abs(u_min), abs(u_max)), program.pid.Ki, program.h, single=True)
     header = [*program.header, "double has 32 bits on an AVR: with I at its largest an error below"]
     header += [f"{dead:.2g} does not move the integral any more"] if math.isfinite(dead) else ["nothing is integrated"]

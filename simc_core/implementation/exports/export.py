@@ -95,7 +95,7 @@ def export(
     4.05
     """
     if language not in LANGUAGES:
-        raise InvalidParameter(f"language must be one of {', '.join(LANGUAGES)}, got {language!r}")
+        raise InvalidParameter(f"language must be one of {', '.join(LANGUAGES)}, found {language!r}")
     return LANGUAGES[language](
         program(controller, h, law, u_min, u_max, tracking_time, plant, unit, date, single, design, about)
     )

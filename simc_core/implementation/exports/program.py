@@ -140,12 +140,12 @@ def program(
     if tracking_time is not None and tracking_time != math.inf:
         tracking_time = checks.positive_time("tracking_time", tracking_time)
     if unit not in ("s", "min"):
-        raise InvalidParameter(f"unit must be s or min, got {unit!r}")
+        raise InvalidParameter(f"unit must be s or min, found {unit!r}")
     for name, text in (("date", date), ("about", about)):
         if not REMARK.fullmatch(text):
-            raise InvalidParameter(f"{name} may have letters, digits, blanks and . , : + / % ° -, got {text[:40]!r}")
+            raise InvalidParameter(f"{name} may have letters, digits, blanks and . , : + / % ° -, found {text[:40]!r}")
     if tracking_time is None and not pid.Kp and plant is None:
-        raise InvalidParameter("tracking_time or plant must be given for pure integral action, got neither")
+        raise InvalidParameter("tracking_time or plant must be given for pure integral action, found neither")
     k, integrators = (plant.k, plant.integrators) if plant else (1.0, 0)
     T_t = tracking_time or usual_tracking_time(controller, k, integrators)
     filters = {"backward": (pid.tau_F / (pid.tau_F + h), 0.0)}
@@ -161,7 +161,7 @@ def _limits(u_min: float, u_max: float) -> tuple[float, float]:
     low = -NO_LIMIT if u_min == -math.inf else checks.real("u_min", u_min, -NO_LIMIT, NO_LIMIT)
     high = NO_LIMIT if u_max == math.inf else checks.real("u_max", u_max, -NO_LIMIT, NO_LIMIT)
     if not low < high:
-        raise InvalidParameter(f"u_max must be > u_min = {low:g}, got {high:g}")
+        raise InvalidParameter(f"u_max must be > u_min = {low:g}, found {high:g}")
     return low, high
 
 

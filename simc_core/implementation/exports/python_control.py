@@ -57,5 +57,5 @@ def _row(row: list[float]) -> list[float]:
 def required_plant(program: Program, language: str) -> Plant:
     """The plant. Raises InvalidParameter where there is none."""
     if program.plant is None or not math.isfinite(program.plant.k):
-        raise InvalidParameter(f"plant must be given for {language}, which simulates the loop, got None")
+        raise InvalidParameter(f"plant must be given for {language}, which simulates the loop, found None")
     return program.plant

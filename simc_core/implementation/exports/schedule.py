@@ -44,9 +44,9 @@ def export_schedule(table: ScheduleTable, language: str, unit: str = "s", single
     0.689655
     """
     if language not in WRITERS:
-        raise InvalidParameter(f"language must be one of {', '.join(WRITERS)} for a schedule, got {language!r}")
+        raise InvalidParameter(f"language must be one of {', '.join(WRITERS)} for a schedule, found {language!r}")
     if unit not in ("s", "min"):
-        raise InvalidParameter(f"unit must be s or min, got {unit!r}")
+        raise InvalidParameter(f"unit must be s or min, found {unit!r}")
     return WRITERS[language](table, _header(table, unit), single)
 
 

@@ -34,7 +34,7 @@ def scl(program: Program) -> str:
 
 
 def logix(program: Program) -> str:
-    """A routine without declarations, which Logix keeps apart, and without functions, which it has not got."""
+    """A routine without declarations, which Logix keeps apart, and without functions, which it does not have."""
     tags = ("r", "y", "u_manual", "u_ff", *SETTINGS, *STATE, *program.local)
     header = [*program.header, NOT_COMPILED.format("Studio 5000"), "Call it every h in a periodic task."]
     header += [f"REAL tags: {', '.join(tags)}.", "BOOL tags: manual, started; set started to 0 in the first scan."]

@@ -58,7 +58,7 @@ def _value(function: str, written: str, reader: Reader, token: Token, parts: lis
             for name, part in zip(("numerator", "denominator"), given, strict=False)
         )
         if is_zero(denominator):
-            raise InvalidParameter("denominator must not be zero, got 0")
+            raise InvalidParameter("denominator must not be zero, found 0")
         value = times(numerator, inverse(denominator))
         theta += value.theta
     elif function in ("tf", "zpk") and len(given) == 1 and given[0].strip("'\"") in ("s", "p"):

@@ -90,7 +90,7 @@ class Reader:
     def plant(self) -> Value:
         value = self.fraction()
         if self.token.kind != "end":
-            raise self.fault(f"a transfer function must end here, got {_named(self.token)}")
+            raise self.fault(f"a transfer function must end here, found {_named(self.token)}")
         return value
 
     @property
@@ -202,7 +202,7 @@ class Reader:
         while self.token.kind == "power":
             exponent = self.whole_exponent()
             if abs(exponent) > HIGHEST_POWER:
-                raise self.fault(f"a power must be between -{HIGHEST_POWER} and {HIGHEST_POWER}, got {exponent}", at)
+                raise self.fault(f"a power must be between -{HIGHEST_POWER} and {HIGHEST_POWER}, found {exponent}", at)
             if exponent < 0 and is_zero(value):
                 raise self.fault("division by zero", at)
             base = inverse(value) if exponent < 0 else value
@@ -221,7 +221,7 @@ class Reader:
         sign = -1 if self.take("-") else 1
         token = self.token
         if token.kind != "number" or not token.text.isascii() or not token.text.isdigit():
-            raise self.fault(f"a power must be a whole number, got {_named(token)}")
+            raise self.fault(f"a power must be a whole number, found {_named(token)}")
         self.next += 1
         if opened:
             self.close(opened)
@@ -268,7 +268,7 @@ class Reader:
     def number(self, token: Token) -> Fraction:
         digits, _, exponent = token.text.lower().partition("e")
         if exponent and abs(int(exponent[:6])) > LARGEST_EXPONENT:
-            raise self.fault(f"a number must be below 1e{LARGEST_EXPONENT}, got {token.text[:20]}", token.at)
+            raise self.fault(f"a number must be below 1e{LARGEST_EXPONENT}, found {token.text[:20]}", token.at)
         following = self.token
         if following.kind == "number" and following.at == token.at + len(token.text):
             raise self.fault(
@@ -311,7 +311,7 @@ class Reader:
         opened = self.take(*CLOSING)
         if not opened:
             braces = " as in \\frac{2}{10s+1}" if self.last.kind == "frac" else ""
-            raise self.fault(f"an opening bracket is expected here{braces}, got {_named(self.token)}")
+            raise self.fault(f"an opening bracket is expected here{braces}, found {_named(self.token)}")
         self.depth += 1
         if self.depth > DEEPEST:
             raise self.fault(f"brackets must not be nested more than {DEEPEST} deep", opened.at)
@@ -324,7 +324,7 @@ class Reader:
         if not self.take(CLOSING[opened.text]):
             raise self.fault(
                 f"'{opened.text}' of position {opened.at + 1} must be closed by '{CLOSING[opened.text]}', "
-                f"got {_named(self.token)}"
+                f"found {_named(self.token)}"
             )
 
     def exponential(self, token: Token) -> Value:

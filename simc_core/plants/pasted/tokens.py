@@ -190,7 +190,7 @@ def _closing(text: str, plain: str, at: int) -> int:
         depth += (plain[i] in "([{") - (plain[i] in ")]}")
         if depth == 0:
             return i + 1
-    raise ParseError(f"'(' of position {at + 1} must be closed by ')', got the end of the text", text, at)
+    raise ParseError(f"'(' of position {at + 1} must be closed by ')', found the end of the text", text, at)
 
 
 def _lost_exponent(text: str, plain: str, at: int, end: int) -> ParseError:

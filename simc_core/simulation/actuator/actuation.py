@@ -123,11 +123,11 @@ class Actuation:
 def rest_within(u_min: float, u_max: float) -> None:
     """Raises InvalidParameter unless u = 0, where the loop is at rest, is within the limits, and something else too."""
     if u_min > 0:
-        raise InvalidParameter(f"u_min must be <= 0, where the loop is at rest, got {u_min:g}")
+        raise InvalidParameter(f"u_min must be <= 0, where the loop is at rest, found {u_min:g}")
     if u_max < 0:
-        raise InvalidParameter(f"u_max must be >= 0, where the loop is at rest, got {u_max:g}")
+        raise InvalidParameter(f"u_max must be >= 0, where the loop is at rest, found {u_max:g}")
     if u_min == u_max:
-        raise InvalidParameter(f"u_max must be > u_min = {u_min:g}, got {u_max:g}")
+        raise InvalidParameter(f"u_max must be > u_min = {u_min:g}, found {u_max:g}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,5 +246,5 @@ def column(z: np.ndarray, k: int, begin: int) -> "memoryview[float]":
 def affordable(steps: float, why: str) -> int:
     """Whole steps that go beyond `steps`, so that a jump at the end is seen. Raises InvalidParameter: MOST_STEPS."""
     if steps > MOST_STEPS:
-        raise InvalidParameter(f"t_end must be <= {MOST_STEPS} steps for {why}, got {steps:.3g}")
+        raise InvalidParameter(f"t_end must be <= {MOST_STEPS} steps for {why}, found {steps:.3g}")
     return math.floor(steps * (1 + SAME_INSTANT)) + 1

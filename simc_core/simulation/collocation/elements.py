@@ -67,5 +67,7 @@ def mesh(modes: np.ndarray, length: float) -> np.ndarray:
         ends += step
         if len(steps) > MOST_ELEMENTS:
             radians = float(np.max(size)) * length
-            raise InvalidParameter(f"the horizon must be at most about {4 * MOST_ELEMENTS} radians, got {radians:.3g}")
+            raise InvalidParameter(
+                f"the horizon must be at most about {4 * MOST_ELEMENTS} radians, found {radians:.3g}"
+            )
     return np.array(steps)

@@ -35,7 +35,7 @@ def share(tunings: int) -> int:
 def too_much(t_end: float) -> str:
     """What to say where all tunings of one call would take more than MOST_OF_ALL."""
     return (
-        f"all responses up to t = {t_end:.4g} must need at most {MOST_OF_ALL} elements together, got more: "
+        f"all responses up to t = {t_end:.4g} must need at most {MOST_OF_ALL} elements together, found more: "
         "they oscillate too long; ask for fewer or shorter ones"
     )
 

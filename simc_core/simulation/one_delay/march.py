@@ -124,7 +124,7 @@ class March:
         at_first = self.count * len(self.levels.mesh)
         if at_first > MOST_TO_END:
             raise InvalidParameter(
-                f"the first {self.count} dead times must need at most {MOST_TO_END} elements, got {at_first}: "
+                f"the first {self.count} dead times must need at most {MOST_TO_END} elements, found {at_first}: "
                 "modes of the plant are too fast for its dead time"
             )
         forms = forms[: together(at_first)]
@@ -211,7 +211,7 @@ class March:
 
     def _refuse(self, covered: float) -> NoReturn:
         raise InvalidParameter(
-            f"t_end must need at most {MOST_TO_END} elements, got {self.t_end:.4g}, of which they cover "
+            f"t_end must need at most {MOST_TO_END} elements, found {self.t_end:.4g}, of which they cover "
             f"{covered:.4g}: the loop oscillates too fast for it"
         )
 

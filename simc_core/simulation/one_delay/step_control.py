@@ -43,7 +43,7 @@ class StepControl:
     def shorten(self) -> None:
         """The element was not good. Raises InvalidParameter where no length is short enough."""
         if self.level <= LOWEST:
-            raise InvalidParameter("the response must have a time scale that can be resolved, got none")
+            raise InvalidParameter("the response must have a time scale that can be resolved, found none")
         self.level, self.good = self.level - 1, 0
         self.patience = min(2 * self.patience, MOST_PATIENCE)
 

@@ -44,8 +44,8 @@ class Breakpoints:
         self.count += 1
         if self.count > MOST:
             raise InvalidParameter(
-                f"a response may have at most {MOST} jumps before it is smooth, got more: the loop is neutral, and its "
-                "dead time too short for this horizon"
+                f"a response may have at most {MOST} jumps before it is smooth, found more: the loop is neutral, and "
+                "its dead time too short for this horizon"
             )
         t, lowest, _, _ = self.heap[0]
         arrived: dict[int, tuple[int, float]] = {}

@@ -171,7 +171,7 @@ class NestedStepper:
     def _keep(self, values: np.ndarray, x: np.ndarray, end: float) -> None:
         if self.count >= self.most:
             raise InvalidParameter(
-                f"the horizon must need at most {self.most} elements, got more by t = {self.t:.3g}: "
+                f"the horizon must need at most {self.most} elements, found more by t = {self.t:.3g}: "
                 "the loop oscillates too fast for it"
             )
         if self.count == len(self.coefficients):

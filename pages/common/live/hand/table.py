@@ -181,7 +181,7 @@ def allowed(subject: Subject, values: dict) -> dict[str, float]:
         )
         if not within:
             raise InvalidParameter(
-                f"{knob['name']} must be within {knob['low']:g} to {knob['high']:g}, got {value!s:.20}"
+                f"{knob['name']} must be within {knob['low']:g} to {knob['high']:g}, found {value!s:.20}"
             )
         found[knob["name"]] = float(value)
     return found
