@@ -140,8 +140,11 @@ def trade_off(
 
 @lru_cache(maxsize=32)
 def front(plant: Plant, kind: str, criterion: str, tau_F: float | None) -> tuple[tuple[float, Optimum], ...]:
-    """The front that rules are compared with: bound and optimum, ascending. Raises as `trade_off` does."""
-    found = trade_off(plant, kind, criterion, COMPARED, tau_F)
+    """The front that rules are compared with: bound and optimum, ascending; empty where there is none."""
+    try:
+        found = trade_off(plant, kind, criterion, COMPARED, tau_F)
+    except SimcError:
+        return ()
     return tuple(zip(COMPARED[len(COMPARED) - len(found) :], found, strict=True))
 
 

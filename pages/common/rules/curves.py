@@ -109,10 +109,7 @@ def kind_of(controller: Controller) -> str:
 
 def _front(question: Question, kind: str) -> list[Optimum]:
     tau_F = question.tau_F if kind == "PID" else None
-    try:
-        found = [best for _, best in front(question.plant, kind, question.criterion, tau_F)]
-    except SimcError:
-        return []
+    found = [best for _, best in front(question.plant, kind, question.criterion, tau_F)]
     return [best for i, best in enumerate(found) if i == 0 or found[i - 1] != best]
 
 
