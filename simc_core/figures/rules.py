@@ -55,13 +55,14 @@ def trade_off_figure(
         for each in fronts
     ]
     traces += [_path(each) for each in paths]
-    traces += [*_points(points, "Mst %{x:.4g}, error %{y:.4g}"), *_marks(chosen, present)]
+    traces += [*_points(points, "Mst %{x:.4g}, error %{y:.4g}")]
     shown = [each for each in (*points, present) if each is not None]
     low, high, widest = _view(fronts, shown)
+    middle = (1 + widest) / 2
     return palette.figure(
-        traces,
+        [*traces, *_marks(chosen, present, middle)],
         palette.axis(PEAK, range=[1.0, widest]),
-        palette.axis(title, type="log", range=[math.log10(low), math.log10(high)]),
+        palette.axis(title, type="log", dtick="D2", range=[math.log10(low), math.log10(high)]),
         height,
         hovermode="closest",
     )
@@ -101,7 +102,8 @@ def tuning_plane_figure(
         color, _, _ = STYLES["PI"]
         traces.append(palette.line(best.x, best.y, best.name, color, "solid", 2.4, hovertemplate=HOVER))
     traces += [_path(path)] if path.x.size else []
-    traces += [*_points(points, "Kc %{x:.4g}, τI %{y:.4g}"), *_marks(chosen, present)]
+    middle = math.sqrt(float(plane.Kc[0] * plane.Kc[-1]))
+    traces += [*_points(points, "Kc %{x:.4g}, τI %{y:.4g}"), *_marks(chosen, present, middle)]
     return palette.figure(
         traces,
         palette.axis(
@@ -145,16 +147,23 @@ def _points(points: Sequence[Point], told: str) -> list[Trace]:
     return traces
 
 
-def _marks(chosen: Point | None, present: Point | None) -> list[Trace]:
-    """A ring round the rule that is drawn, and a cross for the present design, both with their names."""
+def _marks(chosen: Point | None, present: Point | None, middle: float) -> list[Trace]:
+    """A ring round the rule that is drawn, and a cross for the present design, both with their names.
+
+    middle: beyond it names stand on the left.
+    """
     found = []
     if present is not None:
         cross = {"color": palette.U, "symbol": "x", "size": 10}
-        found.append(_mark(present, palette.U, marker=cross, position="bottom right"))
+        found.append(_mark(present, palette.U, marker=cross, position=_beside("bottom", present, middle)))
     if chosen is not None:
         ring = {"color": palette.ALARM, "symbol": "circle-open", "size": 17, "line": {"width": 2.5}}
-        found.append(_mark(chosen, palette.ALARM, marker=ring, position="top right"))
+        found.append(_mark(chosen, palette.ALARM, marker=ring, position=_beside("top", chosen, middle)))
     return found
+
+
+def _beside(where: str, point: Point, middle: float) -> str:
+    return f"{where} {'left' if point.x > middle else 'right'}"
 
 
 def _mark(point: Point, color: str, marker: dict, position: str) -> Trace:

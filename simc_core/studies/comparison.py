@@ -177,8 +177,10 @@ class _Judge:
         """Relative distance of the criterion to that of the best controller with the same peak."""
         x, y = self._front(kind)
         log_Mst = math.log(Mst)
-        if not len(x) or not x[0] - EQUAL_PEAKS <= log_Mst <= x[-1] + EQUAL_PEAKS:
+        if not len(x) or log_Mst > x[-1] + EQUAL_PEAKS:
             return math.nan
+        if log_Mst < x[0] - EQUAL_PEAKS:  # more cautious than the front begins
+            return value / self._search(kind).best(Mst)[0].value - 1
         if len(x) == 1:
             return value / math.exp(y[0]) - 1
         behind = value / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1

@@ -26,6 +26,7 @@ AXES = {
 }
 ROBUSTNESS = {False: "as published", True: "at equal Mst"}
 EQUAL = 1.59
+SG12 = {"compared_kind": "PI", "compared_Ms": EQUAL, "compared_criterion": "J"}
 AT_ONCE = 4  # rows between two pictures of the table while it grows
 TALL, HEIGHT, ROW, WIDE = 340, 380, 27, 185  # px
 PICTURES = ("Error over Mst", "Kc and τI")
@@ -67,6 +68,14 @@ def ask(design: Design) -> None:
             required=True,
             help=J_HELP,
             **state.bound("compared_criterion"),
+        )
+        st.button(
+            "as in [SG12]",
+            key="rules_SG12",
+            type="tertiary",
+            help="PI controllers at Mst = 1.59, judged by J, on one of the plants compared there.",
+            on_click=state.change,
+            kwargs=SG12 | {"compared_plant": design.compared.plant or "lag"},
         )
         if design.compared.kind != "PI":
             design_number(

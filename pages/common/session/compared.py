@@ -20,13 +20,13 @@ class Usual:
 
 
 USUAL = {
-    "balanced": Usual(Plant(1, 1, (1,)), "lag and dead time alike"),
-    "lag": Usual(Plant(1, 1, (8,)), "lag dominant"),
+    "balanced": Usual(Plant(1, 1, (1,)), "lag and dead time alike [SG12]"),
+    "lag": Usual(Plant(1, 1, (8,)), "lag dominant [SG12]"),
     "slow": Usual(Plant(1, 1, (20,)), "slow lag"),
-    "integrating": Usual(Plant(1, 1, integrators=1), "integrating"),
+    "integrating": Usual(Plant(1, 1, integrators=1), "integrating [SG12]"),
     "four": Usual(Plant(1, 0, (1, 1, 1, 1)), "four lags"),
     "two": Usual(Plant(1, 1, (6, 2)), "two lags"),
-    "delay": Usual(Plant(1, 1), "pure dead time"),
+    "delay": Usual(Plant(1, 1), "pure dead time [SG12]"),
 }
 
 
