@@ -69,14 +69,6 @@ def ask(design: Design) -> None:
             help=J_HELP,
             **state.bound("compared_criterion"),
         )
-        st.button(
-            "as in [SG12]",
-            key="rules_SG12",
-            type="tertiary",
-            help="PI controllers at Mst = 1.59, judged by J, on one of the plants compared there.",
-            on_click=state.change,
-            kwargs=SG12 | {"compared_plant": design.compared.plant or "lag"},
-        )
         if design.compared.kind != "PI":
             design_number(
                 "compared_tau_F",
@@ -88,6 +80,14 @@ def ask(design: Design) -> None:
                 help="Filter of all controllers with derivative action; empty for a tenth of the effective dead time.",
             )
 
+        st.button(
+            "as in [SG12]",
+            key="rules_SG12",
+            type="tertiary",
+            help="PI controllers at Mst = 1.59, judged by J, on one of the plants compared there.",
+            on_click=state.change,
+            kwargs=SG12 | {"compared_plant": design.compared.plant or "lag"},
+        )
     if design.compared.plant != PRESENT:
         plant = USUAL[design.compared.plant].plant
         st.markdown(f"Compared on $G(s) = {latex(plant)}$, not on the plant of this design.")
