@@ -6,6 +6,7 @@ are mid-tones, so that a figure reads well on a light page and on a dark one; te
 Colours are those of Okabe and Ito, safe for colour-blind eyes, and never stand alone: a dash or a label says the same.
 """
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -133,6 +134,16 @@ def axis(title: str, **more: object) -> dict[str, Any]:
 def log_axis(title: str, **more: object) -> dict[str, Any]:
     """A logarithmic axis, decades as powers of ten."""
     return axis(title, type="log", exponentformat="power", dtick=1, tickfont={"size": TICKS / PLOTLY_POWER}) | more
+
+
+def short_log_axis(title: str, low: float, high: float) -> dict[str, Any]:
+    """A logarithmic axis over a few decades: 1, 2, 5 of each, written out; over many only 1."""
+    digits = (1, 2, 5) if high / low < 1e3 else (1,)
+    exponents = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    ticks = [digit * 10.0**exponent for exponent in exponents for digit in digits]
+    shown = [tick for tick in ticks if low <= tick <= high]
+    span = [math.log10(low), math.log10(high)]
+    return axis(title, type="log", range=span, tickvals=shown, ticktext=[f"{tick:g}" for tick in shown])
 
 
 def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None = None, **layout: object) -> Figure:

@@ -62,7 +62,7 @@ def trade_off_figure(
     return palette.figure(
         [*traces, *_marks(chosen, present, middle)],
         palette.axis(PEAK, range=[1.0, widest]),
-        palette.axis(title, type="log", dtick="D2", range=[math.log10(low), math.log10(high)]),
+        palette.short_log_axis(title, low, high),
         height,
         hovermode="closest",
     )
@@ -106,10 +106,8 @@ def tuning_plane_figure(
     traces += [*_points(points, "Kc %{x:.4g}, τI %{y:.4g}"), *_marks(chosen, present, middle)]
     return palette.figure(
         traces,
-        palette.axis(
-            "Kc  [unit of u / unit of y]", type="log", dtick="D2", range=[math.log10(x) for x in plane.Kc[[0, -1]]]
-        ),
-        palette.axis("τI  [time unit]", type="log", dtick="D2", range=[math.log10(low), math.log10(high)]),
+        palette.short_log_axis("Kc  [unit of u / unit of y]", *plane.Kc[[0, -1]].tolist()),
+        palette.short_log_axis("τI  [time unit]", low, high),
         height,
         hovermode="closest",
         annotations=notes,
