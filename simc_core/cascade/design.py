@@ -20,7 +20,7 @@ from simc_core.notation import DIGITS, number, rounded_up
 from simc_core.optimal.speed_for_peak import smallest_speed_with_peak
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
-from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.half_rule import reduced_model
 from simc_core.rules.direct_synthesis import KINDS, direct_synthesis, numerator
 from simc_core.rules.simc import default_tau_c, simc
 
@@ -117,10 +117,10 @@ def simc_cascade(
                 f"{name} must be stable or integrating for a SIMC cascade, found {block.unstable_poles} unstable "
                 "poles: use direct synthesis, which is made for them"
             )
-    model = half_rule(secondary, _order("inner", inner)).model
+    model = reduced_model(secondary, _order("inner", inner))
     Cb, tau_cb = _tuned(model, tau_c_inner, "inner", Ms_inner, lambda C: NestedLoops((secondary,), (C,)))
     effective = replace(primary, theta=primary.theta + model.theta, lags=(*primary.lags, tau_cb))
-    reduced = half_rule(effective, _order("outer", outer)).model
+    reduced = reduced_model(effective, _order("outer", outer))
     Ca, tau_ca = _tuned(reduced, tau_c_outer, "outer", Ms_outer, lambda C: NestedLoops((secondary, primary), (Cb, C)))
     Ca = Ca.with_weight(b)
     notes = []
@@ -351,7 +351,7 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
         primary.lead_pairs + secondary.lead_pairs,
     )
     if not product.unstable_poles and product.integrators <= 2:
-        model = half_rule(product, _order("kind", kind)).model
+        model = reduced_model(product, _order("kind", kind))
         tau_c = default_tau_c(model)
         return CascadeLoop(primary, secondary, _filtered(simc(model, tau_c), tau_c), None)
 

@@ -12,7 +12,7 @@ from simc_core.plants.models import (
     UnstableDelay,
 )
 from simc_core.plants.plant import Plant
-from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.half_rule import reduced_model
 
 
 def as_model(structure: str, parameters: Mapping[str, float]) -> tuple[Plant, Model]:
@@ -35,5 +35,5 @@ def as_model(structure: str, parameters: Mapping[str, float]) -> tuple[Plant, Mo
             model = UnstableDelay(p["k_prime"], p["theta"], p["a"])
         case _:
             plant = Plant(p["k"], p["theta"], (p["tau1"], p["tau2"]), leads=(p["T"],))
-            return plant, half_rule(plant).model
+            return plant, reduced_model(plant)
     return model.plant, model

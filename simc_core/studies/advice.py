@@ -25,7 +25,7 @@ from simc_core.plants.plant import Plant
 from simc_core.plants.step_response import rise_time
 from simc_core.reduction.equal_peak import load_error
 from simc_core.reduction.explanation import of_orders
-from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.half_rule import reduced_model
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.bands import exceeds
 from simc_core.studies.remedies import FILTERS, calmer, filter_that_costs_little, tight
@@ -260,7 +260,7 @@ def delivered(controller: Controller) -> str:
 def advice_on_settings(plant: Plant, controller: Controller) -> tuple[Advice, ...]:
     """What applies to settings that no rule has made, judged on the first-order model of the plant."""
     try:
-        found = slow_oscillation(half_rule(plant).model, controller)
+        found = slow_oscillation(reduced_model(plant), controller)
     except NotReducible:
         return ()
     return (found,) if found else ()

@@ -12,7 +12,7 @@ from simc_core.optimal.robust_gains import peak_bound
 from simc_core.optimal.under_ms import Optimum, Search, criterion_of
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
-from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.half_rule import reduced_model
 from simc_core.rules.simc import default_tau_c, simc
 
 FILTER = 0.1  # tau_F of a PID controller, in units of the effective dead time
@@ -161,7 +161,7 @@ def search_for(plant: Plant, kind: str, criterion: str, tau_F: float | None, ser
 def model_of(plant: Plant) -> Model | None:
     """The half rule's model of second order, None where there is none."""
     try:
-        return half_rule(plant, 2).model
+        return reduced_model(plant, 2)
     except NotReducible:
         return None
 
@@ -169,7 +169,7 @@ def model_of(plant: Plant) -> Model | None:
 def scale_of(plant: Plant) -> float:
     """Effective dead time of the half rule's first-order model; where it is 0, 1/omega_n, or a tenth of all lags."""
     try:
-        theta = half_rule(plant, 1).model.theta
+        theta = reduced_model(plant, 1).theta
     except NotReducible:
         theta = plant.theta
     if theta:

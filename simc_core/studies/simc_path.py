@@ -11,7 +11,7 @@ from simc_core.loops.loop import Loop
 from simc_core.optimal.under_ms import criterion_of
 from simc_core.plants.models import UnstableDelay
 from simc_core.plants.plant import Plant
-from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.half_rule import reduced_model
 from simc_core.rules.simc import default_tau_c, simc
 from simc_core.sensitivity.margins import margins_many
 from simc_core.studies.equal_robustness import filtered
@@ -52,7 +52,7 @@ def simc_path(plant: Plant, kind: str, criterion: str = "load", tau_F: float | N
     """
     scale = scale_of(plant)
     try:
-        model = half_rule(plant, 2 if kind == "PID" else 1).model
+        model = reduced_model(plant, 2 if kind == "PID" else 1)
         if isinstance(model, UnstableDelay):
             return _EMPTY
         judge = criterion_of(plant, criterion, scale)

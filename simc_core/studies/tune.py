@@ -6,7 +6,7 @@ from simc_core.errors import InvalidParameter, OutOfDomain
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.plants.ultimate_point import Ultimate
-from simc_core.reduction.half_rule import half_rule
+from simc_core.reduction.half_rule import reduced_model
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.sensitivity.ultimate import ultimate
 
@@ -100,7 +100,7 @@ def subject_of(rule: Rule, subject: Model | Ultimate | Plant, kind: str) -> Mode
         return plant
     if isinstance(subject, Model):
         return subject
-    return half_rule(plant, 2 if kind == "PID" and rule.key in SECOND_ORDER else 1).model
+    return reduced_model(plant, 2 if kind == "PID" and rule.key in SECOND_ORDER else 1)
 
 
 def _of_kind(

@@ -3,10 +3,11 @@
 import streamlit as st
 
 from pages.common.parts.symbols import sentence
-from simc_core import Identified, NotIdentifiable, SimcError, Trend, by_hand, half_rule, margins, simc
+from simc_core import Identified, NotIdentifiable, SimcError, Trend, by_hand, margins, simc
 from simc_core.identification.graphical import ByHand
 from simc_core.loops.loop import Loop
 from simc_core.notation import number
+from simc_core.reduction.half_rule import reduced_model
 
 CITED = {"S72": "Smith 1972", "ZN42": "Ziegler and Nichols 1942", "AH95": "Åström and Hägglund 1995"}
 
@@ -38,7 +39,7 @@ def _row(each: ByHand, model: Identified) -> dict[str, str]:
 
 def _Ms(each: ByHand, model: Identified) -> str:
     try:
-        reduced = half_rule(each.model.plant).model
+        reduced = reduced_model(each.model.plant)
         judged = margins(Loop(model.plant, simc(reduced, each.model.theta or None)))
     except SimcError:
         return "no settings"
