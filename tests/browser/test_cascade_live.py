@@ -8,8 +8,8 @@ from playwright.sync_api import Page, expect
 
 from simc_core import Plant, margins
 from simc_core.cascade.design import simc_cascade
-from tests.browser.test_live import at_rest, frames, live
-from tests.browser.tools import both_themes, idle, picture
+from tests.browser.test_live import at_rest, live
+from tests.browser.tools import both_themes, frames, idle, picture
 
 PAIR_1 = "Ga=2exp(-2s)/(5s%2B1)&Gb=exp(-s)/((2s%2B1)(3s%2B1))"  # [PSB] pair 1
 PAIR_6 = "Ga=2exp(-2s)/(20s%2B1)&Gb=exp(-s)/(20s-1)&method=synthesis"  # an unstable inner block

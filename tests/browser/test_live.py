@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.tools import PATIENCE, Server, both_themes, idle, picture, wait_until
+from tests.browser.tools import PATIENCE, Server, both_themes, frames, idle, picture, wait_until
 
 EXAMPLE = "exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"  # [V06] example 1
 UNSTABLE = "exp(-0.2s)/((5s%2B1)(4s%2B1))&order=2&filter=3"  # a slow filter: unstable for small tau_c
@@ -28,11 +28,6 @@ def at_rest(page: Page) -> None:
 
 def tau_c(page: Page) -> float:
     return float(handle(page).get_attribute("aria-valuenow"))
-
-
-def frames(page: Page) -> None:
-    """Two frames of the browser: what a movement changes is painted in the second at the latest."""
-    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
 
 def opened(open_page, server, plant=EXAMPLE, **how) -> Page:

@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 
 from pages.common.session.project import load
 from simc_core import Plant
-from tests.browser.tools import WIDTHS, both_themes, fits, idle, picture
+from tests.browser.tools import WIDTHS, both_themes, fits, frames, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1: PI Kc 0.57, tau_I 8
 PLACES = ("", "plant", "from_data", "half_rule", "tuning", "cascade", "accuracy")
@@ -92,6 +92,7 @@ def test_table_and_polynomials_edit_the_same_plant(server, open_page):
     page.locator(".gdg-input:focus").wait_for()
     page.keyboard.press("Control+A")
     page.keyboard.type("8")
+    frames(page)  # the grid takes what was typed with the next frame
     page.keyboard.press("Enter")
     idle(page)
     expect(page.locator(".st-key-line .katex").first).to_contain_text("8s+1")

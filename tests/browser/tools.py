@@ -113,6 +113,11 @@ def wait_until(page: Page, holds: Callable[[], bool], what: str) -> None:
         page.wait_for_timeout(20)
 
 
+def frames(page: Page) -> None:
+    """Two frames of the browser: what a movement changes is painted in the second at the latest."""
+    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
 def both_themes(page: Page) -> Iterator[str]:
     """Light, then dark, on the same page: the browser says that its theme has changed, and the page follows."""
     for theme in THEMES:

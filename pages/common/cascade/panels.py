@@ -17,7 +17,7 @@ from simc_core.figures import (
 from simc_core.figures.curves import bode_curve, nested_bode_curve
 from simc_core.sensitivity.margins import crossings
 
-HEIGHT, TALL = 203, 400  # px
+HEIGHT, TALL = 200, 400  # px
 
 
 def panels(study: CascadeStudy) -> None:
