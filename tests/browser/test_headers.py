@@ -9,7 +9,8 @@ from playwright.sync_api import expect
 
 from tests.browser.tools import Server, idle
 
-PAGES = ("", "plant", "from_data?example=step", "half_rule", "tuning", "rules", "cascade", "take_home", "many", "accuracy")
+MODEL = ("plant", "from_data?example=step", "half_rule")
+PAGES = ("", *MODEL, "tuning", "rules", "cascade", "take_home", "many", "accuracy")
 
 
 def test_every_page_and_every_tab_works_under_the_policy(server, open_page):
