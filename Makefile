@@ -45,6 +45,7 @@ bench: $(VENV)/dev.stamp
 
 bench-ui: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m benchmarks.ui
+	$(BIN)/python -m benchmarks.switches
 
 screenshots: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m tests.browser.readme_picture

@@ -1,4 +1,4 @@
-"""How long a page, an edit and the paper's pairs take in headless Chromium, on a server that is warm.
+"""How long a page, an edit and the published pairs take in headless Chromium, on a server that is warm.
 
     page switch     click on a link of the sidebar until the other page has run and is painted; beside it the same in an
                     app of two bare pages
@@ -73,7 +73,18 @@ def bare(page: Page) -> list[float]:
 def ours(page: Page) -> dict[str, list[float]]:
     """Each page from the one before it; edits; the pairs."""
     server = Server()
-    titles = ("Plant", "Half rule", "Tuning", "Cascade", "Accuracy", "Home")
+    titles = (
+        "Plant",
+        "From data",
+        "Half rule",
+        "Tuning",
+        "Rules",
+        "Cascade",
+        "Take home",
+        "Many loops",
+        "Accuracy",
+        "Home",
+    )
     page.goto(server.url)
     idle(page)
     for title in titles:  # everything is imported and compiled
@@ -89,7 +100,7 @@ def ours(page: Page) -> dict[str, list[float]]:
     idle(page)
     found["cascade, Enter"] = [edit(page, "Transfer function", f"exp(-s)/({20 + i}s+1)") for i in range(ROUNDS)]
     page.evaluate(WATCH, ["click", "document.querySelectorAll('[data-testid=stDataFrame]').length == 2"])
-    page.get_by_role("tab", name="Paper's pairs").click()
+    page.get_by_role("tab", name="Published pairs").click()
     found["pairs"] = [page.evaluate("() => painted")]
     server.stop()
     return found
