@@ -1,8 +1,8 @@
 """Further measures of unit steps, for those who ask: they cost a second search that `performance` does without.
 
 ITSE = int t e^2                       settling to 1 % and 5 %, as that to 2 % of StepMetrics
-arrival     first time y is at its end  decay ratio   second over first peak beyond the end value, and the period
-largest_u   largest |u|, jumps included               between the two
+first_arrival  of y at its end       decay ratio   second over first peak beyond the end value, and the period
+largest_u   largest |u|, jumps included              between the two
 """
 
 import math
@@ -35,7 +35,7 @@ class StepQuality:
         int t e^2, in output units squared and time squared.
     settling_1, settling_5 : float
         As StepMetrics.settling_time, to 1 % and 5 %.
-    arrival : float
+    first_arrival : float
         When y first passes its end after a set-point step; nan where it never does, and after a load.
     decay_ratio : float
         Second peak over the first; nan without overshoot, 0 where there is no second peak.
@@ -48,7 +48,7 @@ class StepQuality:
     ITSE: float
     settling_1: float
     settling_5: float
-    arrival: float
+    first_arrival: float
     decay_ratio: float
     period: float
     largest_u: float

@@ -35,19 +35,19 @@ class Bandwidth:
 
     Attributes
     ----------
-    S : float
+    omega_bS : float
         In rad per time unit; nan where abs(S) is above 1/sqrt 2 from the beginning.
-    T : float
+    omega_bT : float
         In rad per time unit; math.inf where abs(T) never stays below, nan where it is below from the beginning on.
-    KS : float
+    max_KS : float
         Largest abs(K S), in input units per output unit; math.inf for a derivative without filter.
     omega_KS : float
         Where that is, in rad per time unit.
     """
 
-    S: float
-    T: float
-    KS: float
+    omega_bS: float
+    omega_bT: float
+    max_KS: float
     omega_KS: float
 
 
@@ -75,7 +75,7 @@ def bandwidth(loop: Loop) -> Bandwidth:
     --------
     >>> from simc_core import Loop, Plant, SeriesPid, bandwidth
     >>> found = bandwidth(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)))
-    >>> round(found.S, 4), round(found.T, 4)
+    >>> round(found.omega_bS, 4), round(found.omega_bT, 4)
     (0.3554, 1.1243)
     """
     judged = margins(loop)

@@ -38,10 +38,10 @@ def test_a_second_order_loop_swings_as_the_formulas_say():
     assert performance(SECOND).setpoint.overshoot == pytest.approx(overshoot, rel=1e-8)
     assert found.setpoint.decay_ratio == pytest.approx(overshoot**2, rel=1e-7)
     assert found.setpoint.period == pytest.approx(2 * math.pi / DAMPED, rel=1e-7)
-    assert found.setpoint.arrival == pytest.approx((math.pi - math.acos(ZETA)) / DAMPED, rel=1e-8)
+    assert found.setpoint.first_arrival == pytest.approx((math.pi - math.acos(ZETA)) / DAMPED, rel=1e-8)
     assert found.disturbance.decay_ratio == pytest.approx(overshoot**2, rel=1e-7)
     assert found.disturbance.period == pytest.approx(2 * math.pi / DAMPED, rel=1e-7)
-    assert math.isnan(found.disturbance.arrival)
+    assert math.isnan(found.disturbance.first_arrival)
 
 
 def test_the_time_weighted_square_of_a_second_order_loop():
@@ -56,7 +56,7 @@ def test_a_first_order_loop_settles_as_its_exponential_does():
     assert (found.settling_1, found.settling_5) == pytest.approx((4 * math.log(100), 4 * math.log(20)), rel=1e-8)
     assert pytest.approx(4.0, rel=1e-8) == found.ITSE  # int t e^{-t/2}
     assert found.largest_u == pytest.approx(1.0, rel=1e-12)
-    assert math.isnan(found.arrival)
+    assert math.isnan(found.first_arrival)
     assert math.isnan(found.decay_ratio)
     assert math.isnan(found.period)
 
@@ -64,34 +64,34 @@ def test_a_first_order_loop_settles_as_its_exponential_does():
 def test_a_first_order_loop_has_the_bandwidth_of_its_lag():
     """S = 4 s/(4 s + 1), T = 1/(4 s + 1), KS = (8 s + 1)/(2 (4 s + 1)) rises from 1/2 to 1."""
     found = bandwidth(FIRST)
-    assert pytest.approx((0.25, 0.25), rel=1e-10) == (found.S, found.T)
-    assert pytest.approx(1.0, rel=1e-9) == found.KS
+    assert pytest.approx((0.25, 0.25), rel=1e-10) == (found.omega_bS, found.omega_bT)
+    assert pytest.approx(1.0, rel=1e-9) == found.max_KS
     assert found.omega_KS == math.inf
 
 
 def test_the_largest_noise_gain_may_be_the_one_at_rest():
     """L = e^{-s}/(10 s) by an I controller: |KS| falls from 1/k."""
     found = bandwidth(Loop(Plant(2, 1), IController(0.05)))
-    assert (found.KS, found.omega_KS) == pytest.approx((0.5, 0.0))
+    assert (found.max_KS, found.omega_KS) == pytest.approx((0.5, 0.0))
 
 
 def test_bandwidths_with_dead_time_are_those_that_are_known():
     found = bandwidth(LAGGING)
-    assert pytest.approx(0.355417, abs=5e-7) == found.S
-    assert pytest.approx(1.124334, abs=5e-7) == found.T
-    assert pytest.approx(0.8588, abs=5e-5) == bandwidth(Loop(INTEGRATING, SeriesPid(0.5, 8))).KS
+    assert pytest.approx(0.355417, abs=5e-7) == found.omega_bS
+    assert pytest.approx(1.124334, abs=5e-7) == found.omega_bT
+    assert pytest.approx(0.8588, abs=5e-5) == bandwidth(Loop(INTEGRATING, SeriesPid(0.5, 8))).max_KS
 
 
 def test_a_neutral_loop_may_have_no_end_of_its_band():
     """Pure dead time under PI: |L(inf)| = Kc, |T| comes back to Kc/(1 - Kc) for ever."""
-    assert math.inf == bandwidth(Loop(Plant(1, 1), SeriesPid(0.45, 1))).T
-    assert math.isfinite(bandwidth(Loop(Plant(1, 1), SeriesPid(0.2, 1 / 3))).T)
+    assert math.inf == bandwidth(Loop(Plant(1, 1), SeriesPid(0.45, 1))).omega_bT
+    assert math.isfinite(bandwidth(Loop(Plant(1, 1), SeriesPid(0.2, 1 / 3))).omega_bT)
 
 
 def test_a_derivative_without_filter_passes_noise_without_limit():
-    assert math.inf == bandwidth(Loop(Plant(1, 1, (6, 2)), SeriesPid(1, 6, 2))).KS
+    assert math.inf == bandwidth(Loop(Plant(1, 1, (6, 2)), SeriesPid(1, 6, 2))).max_KS
     found = bandwidth(Loop(Plant(1, 1, (6, 2)), SeriesPid(1, 6, 2, 0.1)))
-    assert found.KS >= 2 / 0.1
+    assert found.max_KS >= 2 / 0.1
 
 
 def test_ziegler_nichols_swings_on_an_integrating_plant_as_it_is_known_to():
@@ -150,16 +150,18 @@ def test_measures_scale_with_time(factor):
     one, other = step_quality(Loop(plant, controller)), step_quality(slow)
     for mine, its in ((one.setpoint, other.setpoint), (one.disturbance, other.disturbance)):
         assert pytest.approx(mine.ITSE * factor**2, rel=1e-7) == its.ITSE
-        for name in ("settling_1", "settling_5", "arrival", "period"):
+        for name in ("settling_1", "settling_5", "first_arrival", "period"):
             assert getattr(its, name) == pytest.approx(getattr(mine, name) * factor, rel=1e-6, nan_ok=True)
         assert its.decay_ratio == pytest.approx(mine.decay_ratio, rel=1e-6, nan_ok=True)
         assert its.largest_u == pytest.approx(mine.largest_u, rel=1e-8)
     a, b = bandwidth(Loop(plant, controller)), bandwidth(slow)
-    assert (b.S * factor, b.T * factor, b.KS) == pytest.approx((a.S, a.T, a.KS), rel=1e-8)
+    assert (b.omega_bS * factor, b.omega_bT * factor, b.max_KS) == pytest.approx(
+        (a.omega_bS, a.omega_bT, a.max_KS), rel=1e-8
+    )
 
 
 def test_loops_that_are_not_stable_have_no_measures():
     loop = Loop(Plant(1, 1, (8,)), SeriesPid(20, 8))
     with pytest.raises(NotStable):
         step_quality(loop)
-    assert math.isnan(bandwidth(loop).T)
+    assert math.isnan(bandwidth(loop).omega_bT)
