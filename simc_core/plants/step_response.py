@@ -7,6 +7,7 @@ The grid is uniform; the dead time shifts it by a first step of another length, 
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.linalg import expm
@@ -55,6 +56,7 @@ def plant_step(plant: Plant, t_end: float | None = None) -> PlantStep:
     return PlantStep(t, y)
 
 
+@lru_cache(maxsize=64)  # each choice of tau_c is compared with it
 def rise_time(plant: Plant) -> float:
     """When the unit step response first reaches 63 % of its end, dead time included; math.inf where it has no end."""
     if plant.integrators or plant.unstable_poles or any(zeta <= 0 for _, zeta in plant.lag_pairs):
