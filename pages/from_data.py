@@ -9,7 +9,7 @@ from pages.common.parts.symbols import sentence
 from pages.common.shell import header
 
 design = header.show("from_data")
-with st.container(key="from_data"):
+with st.container(key="stack_from_data"):
     controls, shown = st.columns([4, 11], gap="medium")
 with controls:
     work = source.choose(design)

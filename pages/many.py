@@ -6,7 +6,7 @@ from pages.common.many_loops import results, source
 from pages.common.shell import header
 
 header.show("many")
-with st.container(key="many"):
+with st.container(key="stack_many"):
     controls, shown = st.columns([4, 11], gap="medium")
 with controls:
     work = source.choose()

@@ -18,7 +18,7 @@ with explain_refusal():
     present = attempt(lambda: present_study(design))[0] if question.plant == design.plant else None
     rows = view.table(question)
     row = view.chosen_of(rows, design)
-    with st.container(key="rules"):
+    with st.container(key="stack_rules"):
         left, right = st.columns(2, gap="medium")
     with left:
         view.picture(question, rows, row, present)

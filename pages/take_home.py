@@ -41,7 +41,7 @@ design = header.show("take_home")
 with explain_refusal():
     with st.spinner("Tuning the loop"):
         present = present_study(design)
-    with st.container(key="take_home"):
+    with st.container(key="stack_take_home"):
         controls, shown = st.columns([4, 11], gap="medium")
     with controls:
         take_home.choose(design)

@@ -38,7 +38,7 @@ def test_a_file_is_uploaded_fitted_and_forgotten(server, open_page, tmp_path):
     rows = [f"{i};{50 + 0.1 * max(0, min(i - 25, 100)):.2f};{40 if i < 20 else 45}" for i in range(120)]
     path.write_text("Zeit [s];PV [%];OP [%]\n" + "\n".join(rows))
     page = open_page(f"{server}/from_data", 390)
-    page.locator(".st-key-from_data input[type=file]").set_input_files(path)
+    page.locator(".st-key-stack_from_data input[type=file]").set_input_files(path)
     idle(page)
     expect(page.get_by_role("group", name=re.compile("Parameters of the model"))).to_be_visible()
     expect(page.get_by_test_id("stMain")).to_contain_text("tank.csv")

@@ -15,7 +15,7 @@ def test_a_list_becomes_results_becomes_a_tuning(server, open_page, tmp_path):
     path = tmp_path / "loops.csv"
     path.write_text(LIST, encoding="utf-8")
     page = open_page(f"{server}/many")
-    page.locator(".st-key-many input[type=file]").set_input_files(path)
+    page.locator(".st-key-stack_many input[type=file]").set_input_files(path)
     idle(page)
     main = page.get_by_test_id("stMain")
     expect(main).to_contain_text("6 columns understood")
