@@ -1,14 +1,36 @@
 """What tuning rules ask of a model. Each question that is answered with no raises OutOfDomain."""
 
 from simc_core.errors import OutOfDomain
-from simc_core.plants.models import FirstOrderDelay, IntegratingDelay, Model
+from simc_core.plants.models import (
+    DoubleIntegratingDelay,
+    FirstOrderDelay,
+    IntegratingDelay,
+    Model,
+    OscillatingDelay,
+    SecondOrderDelay,
+    UnstableDelay,
+)
+
+IN_WORDS: dict[type, str] = {
+    FirstOrderDelay: "a first-order one",
+    SecondOrderDelay: "a second-order one",
+    IntegratingDelay: "an integrating one",
+    DoubleIntegratingDelay: "a double integrating one",
+    UnstableDelay: "an unstable one",
+    OscillatingDelay: "an oscillating one",
+}
+
+
+def in_words(model: object) -> str:
+    """What a sentence calls a model; of anything else its type."""
+    return IN_WORDS.get(type(model), type(model).__name__)
 
 
 def first_order(model: Model, rule: str) -> FirstOrderDelay:
     """The model, which must be k e^{-theta s}/(tau1 s + 1)."""
     if not isinstance(model, FirstOrderDelay):
         raise OutOfDomain(
-            f"model must be a first-order one with dead time for the rule {rule}, found {type(model).__name__}"
+            f"model must be a first-order one with dead time for the rule {rule}, found {in_words(model)}"
         )
     return model
 

@@ -10,7 +10,7 @@ from simc_core import checks
 from simc_core.controllers.forms import SeriesPid
 from simc_core.errors import OutOfDomain
 from simc_core.plants.models import Model, SecondOrderDelay
-from simc_core.rules.domain import dead_time, kind_of, lag
+from simc_core.rules.domain import dead_time, in_words, kind_of, lag
 
 
 def spectral(model: Model, kind: str = "PI", Ki: float | None = None) -> SeriesPid:
@@ -20,7 +20,7 @@ def spectral(model: Model, kind: str = "PI", Ki: float | None = None) -> SeriesP
     if kind == "PID":
         if not isinstance(model, SecondOrderDelay):
             raise OutOfDomain(
-                f"model must be a second-order one with dead time for the rule {rule}, found {type(model).__name__}"
+                f"model must be a second-order one with dead time for the rule {rule}, found {in_words(model)}"
             )
         k, T1, T2 = model.k, model.tau1, model.tau2
         if T1 == 0:
