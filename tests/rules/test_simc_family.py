@@ -40,7 +40,7 @@ def test_the_usual_choice_is_theta_and_half_of_it_for_isimc():
 
 def test_what_a_rule_does_not_know_is_refused():
     for rule in FAMILY[1:]:
-        with pytest.raises(OutOfDomain, match="model must be a first-order one .* found a double integrating one"):
+        with pytest.raises(OutOfDomain, match=r"model must be a first-order one .* found a double integrating one"):
             settings_of(rule, DoubleIntegratingDelay(1, 1), 1.0)
     with pytest.raises(InvalidParameter, match="rule must be one of simc, improved_simc, isimc, found 'zn'"):
         settings_of("zn", LAGGING)
