@@ -1,4 +1,4 @@
-"""What stands folded on a page is made when it is opened, and nothing that was typed there is lost when it is closed."""
+"""What stands folded is made when it is opened, and nothing that was typed there is lost when it is closed."""
 
 import pytest
 

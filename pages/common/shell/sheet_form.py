@@ -1,4 +1,4 @@
-"""The loop sheet in the sidebar: tag, note, units, ranges. All of it may stay empty; its fields are made when opened."""
+"""The loop sheet in the sidebar, made when opened: tag, note, units, ranges. All of it may stay empty."""
 
 import streamlit as st
 
