@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import streamlit as st
 
+from pages.common.parts.ready_figure import ReadyFigure
 from pages.common.parts.units import axes_named
 from pages.common.session import state
 from simc_core.figures import Figure, config
@@ -37,7 +38,8 @@ def show(figure: Figure, key: str, alt: str, picked: Callable[[str], None] | Non
     """A figure with hover, zoom and SVG export.   picked: called with the key of the widget when a point is clicked."""
     name = f"figure_{key}"
     pick = {"on_select": lambda: picked(name), "selection_mode": "points"} if picked else {}
-    st.plotly_chart(axes_named(figure, state.design_now().sheet), key=name, config=config(key), alt=alt, **pick)
+    named = ReadyFigure(axes_named(figure, state.design_now().sheet))
+    st.plotly_chart(named, key=name, config=config(key), alt=alt, **pick)
 
 
 def _style(keys: list[str], chosen: int) -> str:
