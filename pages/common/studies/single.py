@@ -13,7 +13,7 @@ from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.metrics.performance import Performance, performance
-from simc_core.metrics.step_metrics import StepMetrics
+from simc_core.metrics.step_records import StepMetrics
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.reduction.records import Reduction
