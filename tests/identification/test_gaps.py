@@ -24,9 +24,7 @@ def two_tests(theta: float, gap: float, moves: int, seed: int, n: int = 300, h: 
     return Trend(t, y + 0.03 * K * chance.normal(size=t.size), [0.0, *values], t_u=[0.0, *at])
 
 
-@pytest.mark.parametrize(
-    ("theta", "gap", "moves", "seed"), [(63.0, 2e6, 30, 2), (42.0, 1e6, 120, 3), (2.0, 1e7, 5, 4)]
-)
+@pytest.mark.parametrize(("theta", "gap", "moves", "seed"), [(63.0, 2e6, 30, 2), (42.0, 1e6, 120, 3), (2.0, 1e7, 5, 4)])
 def test_a_gap_of_days_costs_nothing(theta, gap, moves, seed):
     """It is longer than the tests by thousands of times, and a grid over all of it would step over the dead time."""
     best = identify_all(two_tests(theta, gap, moves, seed))[0]
