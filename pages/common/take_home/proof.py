@@ -2,10 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
-
-import numpy as np
 
 from pages.common.parts.units import with_plain_unit
 from pages.common.session.design import Design
@@ -28,21 +25,15 @@ def sampled(loop: Loop, design: Design) -> tuple[str, Margins]:
     """Title and margins with the sampling period of the design. Raises SimcError where its law does not exist."""
     h = design.actuator.h
     title = f"sampled every {number(h)} {design.sheet.time_unit}".rstrip()
-    return title, sampled_margins(loop, h, design.actuator.law, design.home.scans)
+    return title, sampled_margins(loop, h, design.actuator.law, design.actuator.delay_scans)
 
 
 def sampled_response(first: Loop, loop: Loop, design: Design, built: Actuation | None = None) -> TimeResponse:
-    """y and u with the sampling period, over the horizon of the loop `first`; built: with more than that.
-
-    An output that is written one scan later acts on the plant as one more period of dead time of u.
-    """
+    """y and u with the sampling period, over the horizon of the loop `first`; built: with more than that."""
     begins, t_end = times(first, design.excitation.scenario())
-    late = design.actuator.h * design.home.scans
-    actuation = built or Actuation(h=design.actuator.h, law=design.actuator.law)
-    behind = replace(loop, plant=replace(loop.plant, theta=loop.plant.theta + late))
-    asked = design.excitation.scenario(disturbance_time=max(begins - late, 0.0), t_end=t_end, actuation=actuation)
-    found = simulate(behind, asked)
-    return replace(found, d=np.where(found.t >= begins, found.d, 0.0)) if late else found
+    actuator = design.actuator
+    actuation = built or Actuation(h=actuator.h, law=actuator.law, delay_scans=actuator.delay_scans)
+    return simulate(loop, design.excitation.scenario(disturbance_time=begins, t_end=t_end, actuation=actuation))
 
 
 @lru_cache(maxsize=16)  # a fifth of a second, asked for by warnings, remedies and reports

@@ -67,7 +67,7 @@ def _faster(design: Design, found: Typed) -> Iterator[tuple[str, dict[str, Any]]
     """The longest sampling period that costs 5 % of Ms."""
     h = design.actuator.h
     loop = Loop(design.plant, found.effective)
-    longest = longest_period(loop, design.actuator.law, design.home.scans) if h else h
+    longest = longest_period(loop, design.actuator.law, design.actuator.delay_scans) if h else h
     if 0 < longest < h:
         yield f"Sample every {time_text(longest, design.sheet)}", {"sampling": longest}
 

@@ -60,7 +60,7 @@ def choose(design: Design) -> None:
             key="law",
             on_change=lambda: state.overtaken("law") or state.change(law=state.widget("law")),
         )
-        state.set_widget("scans", bool(design.home.scans))
+        state.set_widget("scans", bool(design.actuator.delay_scans))
         st.toggle(
             "Output written one scan later",
             key="scans",
@@ -201,7 +201,7 @@ def _sampled(typed: Study, design: Design) -> dict[str, Margins]:
 
 def _sampling(typed: Study, design: Design) -> None:
     """Where sampling costs more than it should, up to which period it does not."""
-    longest = longest_period(typed.loop, design.actuator.law, design.home.scans)
+    longest = longest_period(typed.loop, design.actuator.law, design.actuator.delay_scans)
     if design.actuator.h > longest:
         period = time_text(longest, design.sheet)
         st.warning(f"Sampling is slow for this loop: take {period} or less, and $M_s$ rises by 5 % at most.")

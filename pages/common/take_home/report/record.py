@@ -192,7 +192,7 @@ def _asked(design: Design) -> str:
 def _on_sampling(final: Study, design: Design) -> list[str]:
     """Where h is too long, and what an integral in 32 bits does not see."""
     found, h = [], design.actuator.h
-    longest, sheet = longest_period(final.loop, design.actuator.law, design.home.scans), design.sheet
+    longest, sheet = longest_period(final.loop, design.actuator.law, design.actuator.delay_scans), design.sheet
     if h > longest:
         period = time_text(longest, sheet)
         found.append(f"Sampling is slow for this loop: with {period} or less Ms rises by 5 % at most.")
