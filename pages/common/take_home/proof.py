@@ -7,6 +7,7 @@ from functools import lru_cache
 from pages.common.parts.units import with_plain_unit
 from pages.common.session.design import Design
 from simc_core import Actuation, Loop, TimeResponse, longest_sampling_period, sampled_margins, simulate
+from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
 from simc_core.notation import number, rounded_down
 from simc_core.sensitivity.margins_of_response import Margins
@@ -34,6 +35,36 @@ def sampled_response(first: Loop, loop: Loop, design: Design, built: Actuation |
     actuator = design.actuator
     actuation = built or Actuation(h=actuator.h, law=actuator.law, delay_scans=actuator.delay_scans)
     return simulate(loop, design.excitation.scenario(disturbance_time=begins, t_end=t_end, actuation=actuation))
+
+
+def responses(first: Loop, loops: Mapping[str, Loop], design: Design) -> tuple[dict[str, TimeResponse], list[str]]:
+    """y and u of each loop over the horizon of `first`, by name; and why some are not there."""
+    begins, t_end = times(first, design.excitation.scenario())
+    asked = design.excitation.scenario(disturbance_time=begins, t_end=t_end)
+    found, why = {}, []
+    for name, loop in loops.items():
+        try:
+            found[name] = simulate(loop, asked)
+        except SimcError as error:
+            why.append(not_drawn(name, loop, error))
+    return found, why
+
+
+def not_drawn(name: str, loop: Loop, error: SimcError) -> str:
+    """Why a response is missing, in words."""
+    if kicks(loop.controller):
+        return (
+            f"The response {name} is not drawn: its derivative acts on the set point without a filter, so a set-point "
+            "step makes u infinite. Its margins and its load response are those of a derivative on PV. With the "
+            "sampling period of the box it is drawn as the box does it."
+        )
+    return f"The response {name} is not drawn: {error}"
+
+
+def kicks(controller: Controller) -> bool:
+    """Whether a set-point step makes u infinite."""
+    form = controller.to_parallel()
+    return bool(form.Kd and form.c and not form.tau_F)
 
 
 @lru_cache(maxsize=16)  # a fifth of a second, asked for by warnings, remedies and reports

@@ -6,7 +6,7 @@ from typing import Any
 
 from pages.common.parts.units import time_text
 from pages.common.session.design import Design, put
-from pages.common.studies.single import Study, present_study, study_of_settings
+from pages.common.studies.single import Study, judged_settings, present_study
 from pages.common.take_home.proof import longest_period, sampled
 from pages.common.take_home.typed import typed_into
 from simc_core import Loop, Typed
@@ -82,5 +82,5 @@ def _after(design: Design, change: dict[str, Any]) -> float:
 
 def _Ms(design: Design, found: Typed) -> float:
     """As typed and, with a sampling period, sampled."""
-    study = study_of_settings(design.plant, found.effective)
+    study = judged_settings(design.plant, found.effective)
     return sampled(study.loop, design)[1].Ms if design.actuator.h else study.margins.Ms
