@@ -23,7 +23,7 @@ SUBJECTS = {  # in the order in which they are taught
     "built": "The loop as it is built",
     "cascade": "Cascades",
 }
-SHOWS = ("tau_c", "settings", "plant", "cascade", "half_rule", "bode", "built", "trend", "rules", "relay")
+SHOWS = ("tau_c", "settings", "plant", "cascade", "single", "half_rule", "bode", "built", "trend", "rules", "relay")
 PANELS = ("y", "u", "nyquist", "sensitivity")
 VIEWS = ("responses", "tradeoff")
 BASE = "base"  # the case of the design alone

@@ -11,6 +11,8 @@ import numpy as np
 
 from pages.common.lessons.opened import Opened
 from pages.common.parts.settings_text import form_shown
+from pages.common.studies.cascade import attempt
+from simc_core import dominant_poles
 from simc_core.errors import InvalidParameter
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.optimal.imc_figures import ImcPoint, imc_point
@@ -85,11 +87,22 @@ def _behind(structure: str) -> Callable[[Opened], float]:
     return lambda case: case.fits[structure].criterion
 
 
+def _possible(case: Opened) -> float:
+    return float(attempt(case.design.cascade)[0] is not None)
+
+
 def _imc(case: Opened) -> ImcPoint:
     """Of L = (1 + beta s) e^{-s}/((epsilon + beta) s), which the case must be."""
     form = case.study.controller.to_parallel()
     beta = form.Kd / form.Kp
     return imc_point(1 / form.Kp - beta, "PID" if beta else "PI")
+
+
+def _swing(case: Opened) -> float:
+    turning = [pole for pole in dominant_poles(case.stable.loop) if pole.s.imag]
+    if not turning:
+        raise InvalidParameter("no pole of this loop swings")
+    return 2 * math.pi / turning[0].s.imag
 
 
 def _unprotected(case: Opened) -> float:
@@ -146,6 +159,7 @@ QUANTITIES: dict[str, Quantity] = {
     "arrival": Quantity("when y first reaches the set point", _quality("setpoint", "first_arrival")),
     "period": Quantity("from the first peak to the second, set point", _quality("setpoint", "period")),
     "period_load": Quantity("the same after a load step", _quality("disturbance", "period")),
+    "swing": Quantity("period of the closed-loop pole that swings longest", _swing),
     "decay": Quantity("second peak over the first, set point", _quality("setpoint", "decay_ratio")),
     "largest_u": Quantity("largest |u| after a set-point step", _quality("setpoint", "largest_u")),
     "offset": Quantity("error left after a set-point step, percent", lambda case: 100 * case.rest.step),
@@ -173,6 +187,7 @@ QUANTITIES: dict[str, Quantity] = {
     "Ms_inner": Quantity("Ms of the inner loop", lambda case: case.cascade.inner.Ms),
     "Mt_outer": Quantity("Mt of the outer loop", lambda case: case.cascade.outer.Mt),
     "Mt_inner": Quantity("Mt of the inner loop", lambda case: case.cascade.inner.Mt),
+    "possible": Quantity("1 where there is a cascade as it is asked for, else 0", _possible),
     "cascade_stable": Quantity("1 where the cascade is stable, else 0", lambda case: float(case.cascade.sound)),
     **{f"fit_{name}": Quantity("of the fitted model", _fitted(name)) for name in ("k", "theta", "tau1", "tau2")},
     **{

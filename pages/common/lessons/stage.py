@@ -7,6 +7,7 @@ from pages.common.lessons.lesson import Lesson, Move
 from pages.common.lessons.opened import Opened, design_of
 from pages.common.parts.panel import show
 from pages.common.session.design import Design
+from pages.common.studies import cascade
 from pages.common.studies.single import Study, present_study, study_of_settings, time_responses
 from pages.common.tuning.panels import open_loop
 from simc_core import Trend
@@ -44,6 +45,12 @@ def _plant(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...])
 def _cascade(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
     live.cascade_instrument(design.cascade)
     live.staged("cascade", move.panels, figures, move.view)
+
+
+def _single(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    courses = cascade.time_responses(cascade.study(design.cascade))
+    show(output_figure(courses, HEIGHT), "single_y", "Output y1 of the cascade and of a single loop: r, d1, d2")
+    show(input_figure(courses, HEIGHT), "single_u", "Input u of the cascade and of a single loop")
 
 
 def _half_rule(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
@@ -89,6 +96,7 @@ SHOWN = {
     "settings": _settings,
     "plant": _plant,
     "cascade": _cascade,
+    "single": _single,
     "half_rule": _half_rule,
     "bode": _bode,
     "built": _built,
