@@ -14,8 +14,8 @@ export function mount(name, make) {
     one.send = (what) => setTriggerValue("release", what);
     one.take(unpack(data));
     const box = letters(name);
-    box.open = (message) => one.take(message);
-    for (const message of box.waiting.splice(0)) one.take(message);
+    box.open = (message) => (message.kind === "stage" ? one.stage(message) : one.take(message));
+    for (const message of box.waiting.splice(0)) box.open(message);
     return () => {
       one.leave();
       live.delete(parentElement);
