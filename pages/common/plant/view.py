@@ -3,10 +3,9 @@
 import streamlit as st
 
 from pages.common.parts.formula import fitted
-from pages.common.parts.units import axes_named
-from pages.common.session import state
+from pages.common.parts.panel import show
 from simc_core import Plant
-from simc_core.figures import bode_figure, config, plant_step_figure, pole_zero_figure
+from simc_core.figures import bode_figure, plant_step_figure, pole_zero_figure
 from simc_core.notation import latex_number
 from simc_core.plants.step_response import plant_step
 
@@ -34,10 +33,11 @@ def figures(plant: Plant) -> None:
     for place, title, figure in (
         (left, "Step response", plant_step_figure(plant_step(plant), height=HEIGHT)),
         (right, "Poles and zeros", pole_zero_figure(plant, HEIGHT)),
-        (st, "Bode diagram", bode_figure(plant, height=TALL)),
+        (st.container(), "Bode diagram", bode_figure(plant, height=TALL)),
     ):
         place.markdown(f"**{title}**")
-        place.plotly_chart(axes_named(figure, state.design_now().sheet), key=f"plant {title}", config=config(title))
+        with place:
+            show(figure, f"plant_{title.split()[0].lower()}", f"{title} of the plant")
 
 
 def _roots(roots) -> str:
