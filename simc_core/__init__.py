@@ -29,6 +29,7 @@ from simc_core.identification.graphical import ByHand, by_hand
 from simc_core.identification.identified import Identified
 from simc_core.identification.identify import identify
 from simc_core.identification.moves import find_moves
+from simc_core.identification.operating_points import OperatingPoint, operating_points
 from simc_core.identification.rank import identify_all
 from simc_core.identification.reading.reader import read_trend
 from simc_core.identification.robust_tau_c import ms_of_cloud, robust_tau_c
@@ -125,6 +126,7 @@ __all__ = [
     "NotIdentifiable",
     "NotReducible",
     "NotStable",
+    "OperatingPoint",
     "Optimum",
     "OscillatingDelay",
     "OutOfDomain",
@@ -181,6 +183,7 @@ __all__ = [
     "margins_of",
     "ms_of_cloud",
     "ms_of_plants",
+    "operating_points",
     "optimal",
     "parse_plant",
     "performance",
