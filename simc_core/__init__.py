@@ -52,9 +52,10 @@ from simc_core.many.result import Judged, Result
 from simc_core.many.run import tune_many
 from simc_core.many.tune_rows import tune_chunk, tune_row
 from simc_core.metrics.nested_performance import NestedPerformance
-from simc_core.metrics.performance import Performance, performance
-from simc_core.metrics.step_metrics import StepMetrics
-from simc_core.metrics.step_quality import Quality, StepQuality, step_quality
+from simc_core.metrics.noise import noise_variance
+from simc_core.metrics.performance import Performance, performance, step_quality
+from simc_core.metrics.step_quality import Quality
+from simc_core.metrics.step_records import StepMetrics, StepQuality
 from simc_core.numbers import read_number, read_numbers
 from simc_core.optimal.robust_region import gain_intervals, robust_region
 from simc_core.optimal.stability_limit import stability_limit
@@ -76,8 +77,8 @@ from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
-from simc_core.sensitivity.bandwidth import Bandwidth, bandwidth
-from simc_core.sensitivity.margins import crossings, margins, margins_many
+from simc_core.sensitivity.bandwidth import Bandwidth
+from simc_core.sensitivity.margins import bandwidth, crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
 from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
@@ -183,6 +184,7 @@ __all__ = [
     "margins_of",
     "ms_of_cloud",
     "ms_of_plants",
+    "noise_variance",
     "operating_points",
     "optimal",
     "parse_plant",

@@ -5,6 +5,7 @@ import streamlit as st
 from pages.common.from_data.record_view import in_units
 from pages.common.from_data.send import plain_unit, send
 from pages.common.from_data.work import Fits, Work, kept, nearly
+from pages.common.parts.figure_words import in_words
 from pages.common.parts.symbols import sentence
 from simc_core import Identified, Trend, ms_of_cloud, robust_tau_c
 from simc_core.figures import config
@@ -67,5 +68,6 @@ def _curve(fits: Fits, several: tuple[Identified, ...], limit: float, tau_c: flo
     marked += [("95 %", tau_c)] if tau_c and tau_c > 1.05 * theta else []
     figure = tau_c_figure(found.tau_c, found.quantile(0.5), found.quantile(PROBABILITY), limit, marked, HEIGHT)
     alt = "Ms against tau_c: median and the value that is not passed with 95 %"
-    st.plotly_chart(in_units(figure, trend), key="figure_tau_c", config=config("Ms of tau_c"), alt=alt)
+    figure = in_units(figure, trend)
+    st.plotly_chart(figure, key="figure_tau_c", config=config("Ms of tau_c"), alt=in_words(alt, figure))
     st.caption("SIMC settings of the model, on plants drawn from its errors. Dashed: not passed with 95 %.")

@@ -76,7 +76,7 @@ class Tuning:
 
 
 ACTUATION = tuple(each.name for each in fields(Actuation))
-IN_LINKS = {"tracking_time": "T_t", "h": "sampling"}  # h alone is taken, by Tuning
+IN_LINKS = {"tracking_time": "T_t", "h": "sampling", "delay_scans": "scans"}  # h alone is taken, by Tuning
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +143,7 @@ class Actuator:
     """How the loop is built: the fields of Actuation, None for no limit.
 
     tracking_time: None for the default.   h: sampling period, 0 if continuous.   law: of the sampled controller.
+    delay_scans: after which its output is written, 0 or 1.
     resolution, dead_band, backlash: of the actuator, 0 for none.   rate_limit: None for none.
     """
 
@@ -153,6 +154,7 @@ class Actuator:
     seed: int = 0
     h: float = 0.0
     law: str = "backward"
+    delay_scans: int = 0
     resolution: float = 0.0
     dead_band: float = 0.0
     backlash: float = 0.0
@@ -165,8 +167,9 @@ class Actuator:
                 put(self, name, checks.gain(name, getattr(self, name)))
         if self.tracking_time is not None:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
+        checks.whole("scans", self.delay_scans, 0, 1)
         scenario = self.scenario()  # which checks what it is made of
-        for name in ("noise", "seed", "h", "resolution", "dead_band", "backlash"):
+        for name in ("noise", "seed", "h", "delay_scans", "resolution", "dead_band", "backlash"):
             put(self, name, getattr(scenario.actuation, name))
 
     def scenario(self, excitation: Excitation = Excitation()) -> Scenario:
@@ -301,7 +304,7 @@ PLACES: dict[str, tuple[str, str]] = {
     "filter_outer": ("cascade", "filter_outer"),
     **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
     **{name: ("record", name) for name in ("example", "structure", "begin", "end", "bad")},
-    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between", "scans")},
+    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between")},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
     "d_time": ("excitation", "load_time"),

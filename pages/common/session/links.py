@@ -8,11 +8,11 @@
                                                      separated by !
     example, structure, begin, end, bad              what is chosen of a record on the page From data
     origin, uncertainty                              of a plant that was identified there
-    box, rounding, scans, language, exported         what the settings are typed into, or written as
+    box, rounding, language, exported                what the settings are typed into, or written as
     points, between                                  value~k~theta~tau1~tau2 of a gain schedule, separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
     Ga, Gb, Ga_facts, method, ...                     the cascade, only where it is not the default
-    u_min, u_max, T_t, noise, seed, sampling, law,
+    u_min, u_max, T_t, noise, seed, sampling, law, scans,
     resolution, dead_band, backlash, rate_limit      the loop as built, only where it is not the default
     r, d, d_time, r_ramp, d_ramp                     set point and load in the figures
     r_low, r_high, r_rate                            limits of the set point in the controller
