@@ -5,6 +5,7 @@ import streamlit as st
 from pages.common.from_data import (
     auto_view,
     experiments,
+    loop_view,
     models_view,
     points_view,
     record_view,
@@ -32,6 +33,7 @@ with shown:
         source.empty()
     elif work.trend is None:
         st.error(sentence(told(work.reading.refusal)))
+        loop_view.known_controller(work)
     else:
         trend = work.trend
         figure = st.container()

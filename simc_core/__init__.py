@@ -21,6 +21,7 @@ from simc_core.errors import (
     WrongType,
 )
 from simc_core.identification.cloud_peaks import ms_of_plants
+from simc_core.identification.experiments.known_controller import op_of_controller
 from simc_core.identification.experiments.relay import Relay, relay_from_trend, relay_test
 from simc_core.identification.experiments.retune_oscillation import retune_oscillation
 from simc_core.identification.experiments.setpoint_overshoot import setpoint_overshoot
@@ -185,6 +186,7 @@ __all__ = [
     "ms_of_cloud",
     "ms_of_plants",
     "noise_variance",
+    "op_of_controller",
     "operating_points",
     "optimal",
     "parse_plant",
