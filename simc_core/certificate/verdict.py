@@ -218,6 +218,17 @@ def count_unstable_many(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
     return [found[i] for i in range(len(functions))]
 
 
+def all_faster(loops: Sequence[Loop], rates: Sequence[float]) -> list[bool]:
+    """Of each single loop, whether all its closed-loop poles lie to the left of -rate, >= 0: such a loop is stable."""
+    terms = [[shifted(loop.L, -rate)] for loop, rate in zip(loops, rates, strict=True)]
+    try:
+        return [found.unstable_poles == 0 for found in count_unstable_many(terms)]
+    except InvalidParameter:  # one of them is too wild to be counted
+        if len(loops) == 1:
+            return [False]
+        return [all_faster([loop], [rate])[0] for loop, rate in zip(loops, rates, strict=True)]
+
+
 def _at_infinity(f: Characteristic) -> Stability | None:
     """The verdict where |L(inf)| decides on it. Raises InvalidParameter for ill-posed loops."""
     neutral = f.neutral

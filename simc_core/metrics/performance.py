@@ -17,9 +17,8 @@ from typing import overload
 
 import numpy as np
 
-from simc_core.certificate.characteristic import shifted
 from simc_core.certificate.poles import dominant_poles
-from simc_core.certificate.verdict import count_unstable_many, stability
+from simc_core.certificate.verdict import all_faster, stability
 from simc_core.errors import InvalidParameter, NotStable, SimcError
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
@@ -93,13 +92,15 @@ def performance(loop: Loop | CascadeLoop | NestedLoops) -> Performance | NestedP
             raise not_a_loop(loop)
 
 
-def performance_many(loops: Sequence[Loop]) -> list[Performance | SimcError]:
+def performance_many(loops: Sequence[Loop], rates: Sequence[float] | None = None) -> list[Performance | SimcError]:
     """Performance of many stable loops, each with its own plant, worked on together where their structure is the same.
 
     Parameters
     ----------
     loops : sequence of Loop, n of them
         Known to be stable.
+    rates : sequence of float, n of them, optional
+        All poles of each loop are known to lie to the left of -rate (`all_faster`); 0 where no more is known.
 
     Returns
     -------
@@ -107,10 +108,12 @@ def performance_many(loops: Sequence[Loop]) -> list[Performance | SimcError]:
         In the order of `loops`; the error that `performance` raises in the place of a loop that has none.
     """
     found: dict[int, Performance | SimcError] = {}
+    known = rates or [0.0] * len(loops)
     forms = [loop.controller.to_parallel() for loop in loops]
     for which, course in march_plants([loop.plant for loop in loops], forms):
-        some = [loops[i] for i in which]
-        found |= zip(which, [course] if isinstance(course, InvalidParameter) else _measured(some, course), strict=True)
+        some, sure = [loops[i] for i in which], [known[i] for i in which]
+        measured = [course] if isinstance(course, InvalidParameter) else _measured(some, course, sure)
+        found |= zip(which, measured, strict=True)
     return [found[i] for i in range(len(loops))]
 
 
@@ -118,27 +121,27 @@ def _of_single(loop: Loop) -> Performance:
     verdict = stability(loop)
     if verdict.verdict != "stable":
         raise NotStable(f"step metrics exist for a stable loop only, found one that is {verdict.verdict}")
-    (found,) = _measured([loop], settled(loop))
+    (found,) = _measured([loop], settled(loop), [0.0])
     if isinstance(found, SimcError):
         raise found
     return found
 
 
-def _measured(loops: Sequence[Loop], course: UnitResponses) -> list[Performance | SimcError]:
-    """The metrics of loops whose responses are known, or why there are none."""
+def _measured(loops: Sequence[Loop], course: UnitResponses, known: Sequence[float]) -> list[Performance | SimcError]:
+    """The metrics of loops whose responses are known, or why there are none. known: rates as of performance_many."""
     n, found = len(loops), metrics_of(both_steps(course))
     refusals = [_refusal(course, i) for i in range(n)]
     pairs = [(found[i], found[n + i]) for i in range(n)]
     tails = [[_Tail(each, course, source, i) for source, each in enumerate(pair)] for i, pair in enumerate(pairs)]
-    settled_ = [i for i in range(n) if refusals[i] is None]
-    rates = [max(tail.negligible_rate() for tail in tails[i]) for i in settled_]
-    known = dict(zip(settled_, _no_mode_is_slower([loops[i] for i in settled_], rates), strict=True))
+    rates = [max(tail.negligible_rate() for tail in tails[i]) if refusals[i] is None else 0.0 for i in range(n)]
+    asked = [i for i in range(n) if rates[i] > known[i]]
+    faster = dict(zip(asked, all_faster([loops[i] for i in asked], [rates[i] for i in asked]), strict=True))
     result: list[Performance | SimcError] = []
     for i, refusal in enumerate(refusals):
         if refusal is not None:
             result.append(refusal)
             continue
-        poles = () if known[i] else dominant_poles(loops[i], most=1)
+        poles = () if faster.get(i, True) else dominant_poles(loops[i], most=1)
         result.append(Performance(*([tail.added(poles[0].s) for tail in tails[i]] if poles else pairs[i])))
     return result
 
@@ -155,17 +158,6 @@ def _refusal(course: UnitResponses, i: int) -> NotStable | None:
         if abs(offset) > LARGEST_OFFSET * max(size, 1e-300):
             return NotStable(f"IAE needs a loop that settles without offset, found {-offset:.4g} after a {name} step")
     return None
-
-
-def _no_mode_is_slower(loops: Sequence[Loop], rates: Sequence[float]) -> list[bool]:
-    """Of each loop, whether all its closed-loop poles lie to the left of -rate, by the certificate."""
-    terms = [[shifted(loop.L, -rate)] for loop, rate in zip(loops, rates, strict=True)]
-    try:
-        return [found.unstable_poles == 0 for found in count_unstable_many(terms)]
-    except InvalidParameter:  # one of them is too wild to be counted
-        if len(loops) == 1:
-            return [False]
-        return [_no_mode_is_slower([loop], [rate])[0] for loop, rate in zip(loops, rates, strict=True)]
 
 
 class _Tail:
