@@ -67,14 +67,19 @@ def _allowed(name: str, time: float, words: str) -> None:
 
 
 def story(reduction: Reduction) -> None:
+    """What was done, and what is to be noted of it."""
+    steps(reduction)
+    for note in reduction.notes:
+        st.info(sentence(note))
+
+
+def steps(reduction: Reduction) -> None:
     """What was done, in order, each line with its equation."""
     st.latex(f"G(s) \\approx {latex(reduction.model)}")
     with st.container(border=True, key="story"):
         for i, step in enumerate(reduction.steps, start=1):
             st.markdown(f"{i}. {symbols(step.text)}" + (f"  \n   ${step.equation}$" if step.equation else ""))
     st.caption("[SK03 eq. 10-11 and rules T1-T3; V06 eq. 15-17]")
-    for note in reduction.notes:
-        st.info(sentence(note))
 
 
 def budget(reduction: Reduction) -> None:

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from pages.common.from_data.work import USUAL, Work, work_on_example
 from pages.common.lessons.lesson import BASE, Lesson
@@ -33,6 +33,8 @@ from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Reduction
 from simc_core.studies.comparison import Row
 from simc_core.studies.with_actuator import AsBuilt, as_built
+
+KEPT = 32  # designs, of all sessions
 
 
 def fields_of(lesson: Lesson, case: str) -> dict[str, str]:
@@ -154,14 +156,17 @@ class Opened:
         return found
 
 
+@lru_cache(maxsize=KEPT)
+def opened(design: Design) -> Opened:
+    """The design, opened once for all sessions."""
+    return Opened(design)
+
+
 class Cases:
-    """All cases of a lesson, each opened when it is asked for, once."""
+    """The cases of a lesson by name, each opened when it is asked for."""
 
     def __init__(self, lesson: Lesson):
         self.lesson = lesson
-        self._opened: dict[str, Opened] = {}
 
     def __getitem__(self, case: str) -> Opened:
-        if case not in self._opened:
-            self._opened[case] = Opened(design_of(self.lesson, case))
-        return self._opened[case]
+        return opened(design_of(self.lesson, case))

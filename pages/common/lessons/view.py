@@ -34,12 +34,11 @@ def lesson_view(lesson: Lesson) -> None:
     with st.container(key="stack_lesson"):
         text, figure = st.columns([4, 8], gap="medium")
     with text:
+        about(lesson, design)
         _told(lesson, step)
         _way(lesson, step)
-    with figure:
-        about(lesson, design)
-        with explain_refusal():
-            stage(lesson, lesson.move_at(step), design, lesson.numbers if step > lesson.answer_at else ())
+    with figure, explain_refusal():
+        stage(lesson, lesson.move_at(step), design, lesson.numbers if step > lesson.answer_at else ())
 
 
 def about(lesson: Lesson, design: Design) -> None:
