@@ -10,7 +10,18 @@ from playwright.sync_api import expect
 from tests.browser.tools import Server, idle
 
 MODEL = ("plant", "from_data?example=step", "half_rule")
-PAGES = ("", *MODEL, "tuning", "rules", "cascade", "take_home", "many", "accuracy")
+PAGES = (
+    "",
+    *MODEL,
+    "tuning",
+    "rules",
+    "cascade",
+    "take_home",
+    "many",
+    "lessons?lesson=V1&step=3",
+    "accuracy",
+    "sources",
+)
 
 
 def test_every_page_and_every_tab_works_under_the_policy(server, open_page):
@@ -19,7 +30,7 @@ def test_every_page_and_every_tab_works_under_the_policy(server, open_page):
     for path in PAGES:
         page.goto(f"{server}/{path}")
         idle(page)
-        if path not in ("", "take_home", "many", "accuracy"):
+        if path not in ("", "take_home", "many", "accuracy", "sources"):
             expect(page.locator(".js-plotly-plot:visible, .live:visible").first).to_be_visible()
         for tab in page.get_by_role("tab").all():
             tab.click()

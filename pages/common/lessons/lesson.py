@@ -8,6 +8,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from pages.common.parts.quantities import QUANTITIES
 from simc_core.errors import InvalidParameter
 
 SUBJECTS = {  # in the order in which they are taught
@@ -154,6 +155,8 @@ class Lesson:
                 raise InvalidParameter(f"a case is named by 1 to 16 letters and digits, not {BASE}, found {case[:20]}")
         if len(self.numbers) > MOST_NUMBERS:
             raise InvalidParameter(f"numbers must be at most {MOST_NUMBERS}, found {len(self.numbers)}")
+        for name in self.numbers:
+            _one_of("numbers", name, QUANTITIES)
         for move in (self.play, *self.moves):
             for case in (move.case, *move.behind):
                 _one_of("case", case, (BASE, *self.cases))

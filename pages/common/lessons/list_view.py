@@ -4,6 +4,7 @@ import streamlit as st
 
 from pages.common.lessons import in_use, progress
 from pages.common.lessons.lesson import SUBJECTS, Lesson
+from pages.common.lessons.opened import check_designs
 from pages.common.lessons.read import read_lesson
 from pages.common.lessons.shelf import DATA, by_paper, by_subject
 from pages.common.lessons.texts import shown
@@ -15,7 +16,6 @@ from simc_core.errors import SimcError
 
 ORDERS = {"subject": "By subject", "paper": "By paper"}
 EXAMPLE = DATA / "V1.toml"
-LEAST = 200  # bytes of a file that is worth reading
 
 
 def list_view() -> None:
@@ -70,7 +70,7 @@ def _from_file() -> None:
             return
         try:
             lesson = read_lesson(upload.getvalue())
-            in_use.all_open(lesson)
+            check_designs(lesson)
         except SimcError as error:
             st.error(f"{exact(upload.name)} was not opened: {told(str(error))}")
             return

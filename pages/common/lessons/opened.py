@@ -54,6 +54,12 @@ def design_of(lesson: Lesson, case: str) -> Design:
     return design
 
 
+def check_designs(lesson: Lesson) -> None:
+    """Whether every case opens. Raises InvalidParameter, which names the field."""
+    for case in (BASE, *lesson.cases):
+        design_of(lesson, case)
+
+
 class Opened:
     """A design and what comes of it. Each property raises SimcError, in words, where there is no such thing."""
 

@@ -7,10 +7,15 @@ from simc_core.published.sources import SOURCES
 KEY = re.compile(r"\[([A-Z]{1,4}\d{2}|PSB)\b([^\]\n]*)\]")
 
 
+def address(key: str) -> str:
+    """Of the page of sources with this one on top."""
+    return f"sources?source={key}"
+
+
 def cited(key: str) -> str:
     """Markdown of the key in brackets, which leads to the page of sources and tells its full name on hover."""
     full = SOURCES[key].replace('"', "'")
-    return f'[\\[{key}\\]](sources?source={key} "{full}")'
+    return f'[\\[{key}\\]]({address(key)} "{full}")'
 
 
 def linked(text: str) -> str:
