@@ -7,7 +7,7 @@ from pages.common.shell import header
 from simc_core.published.checks import check_all
 
 header.show("accuracy")
-st.markdown("#### Check the numbers")
+st.header("Check the numbers")
 st.markdown(
     "Each row is computed now, by the same functions that draw the other pages, and set beside what was printed, "
     "follows by hand, or was computed in 60 digits by another method. A printed number can be met to half its last "

@@ -10,7 +10,8 @@ from simc_core.published.sources import SOURCES
 from simc_core.published.uses import MISPRINTS, USES
 
 header.show("sources")
-st.markdown("### Sources")
+with st.container(key="lesson_title"):
+    st.markdown("# Sources")
 st.markdown(
     "A DOI is given where it was found confirmed. \\[PSB\\], \\[RC00\\], \\[SK98\\] and \\[V06\\] are cited as this "
     "project received them, those without a DOI from the common knowledge of the field: look them up before you cite "

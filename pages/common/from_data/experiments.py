@@ -4,14 +4,14 @@ from collections.abc import Callable
 
 import streamlit as st
 
+from pages.common.parts import panel
 from pages.common.parts.number_field import number_field
 from pages.common.parts.symbols import sentence, symbols
-from pages.common.parts.units import axes_named, time_text, unit_of
+from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.shell import header
 from simc_core import Plant, SeriesPid, SimcError, checks, relay_test, retune_oscillation, setpoint_overshoot
-from simc_core.figures import config
 from simc_core.figures.trend import relay_figure
 from simc_core.notation import latex, number
 
@@ -122,7 +122,7 @@ def _relay(design: Design) -> None:
         return
     figure = relay_figure(found.t, found.y, found.u, HEIGHT)
     alt = "Relay test: y oscillates, u switches between two levels"
-    st.plotly_chart(axes_named(figure, design.sheet), key="figure_relay", config=config("relay test"), alt=alt)
+    panel.show(figure, "relay", alt)
     rows = [
         {"": "Ku", "describing function": number(found.Ku), "exact": number(found.Ku_exact)},
         {

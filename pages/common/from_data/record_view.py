@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common.from_data.work import ends_of, moves_of
+from pages.common.parts.figure_words import in_words
 from pages.common.parts.number_field import number_field
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
@@ -29,7 +30,8 @@ def figure(trend: Trend, design: Design, part: Trend | None, model: Identified |
     name = "PV, OP" if trend.r is None else "PV, SP, OP"
     told = " and the model with its residuals" if fitted else ""
     alt = f"Record of {name} over {number(trend.span)} {trend.units.get('t', '')}{told}"
-    st.plotly_chart(in_units(found, trend), key="figure_trend", config=config("trend"), alt=alt)
+    found = in_units(found, trend)
+    st.plotly_chart(found, key="figure_trend", config=config("trend"), alt=in_words(alt, found))
 
 
 def in_units(found: Figure, trend: Trend) -> Figure:

@@ -6,7 +6,7 @@ from pages.common.lessons import in_use, progress
 from pages.common.lessons.answer import answer, numbers
 from pages.common.lessons.lesson import Lesson
 from pages.common.lessons.stage import stage
-from pages.common.lessons.texts import shown
+from pages.common.lessons.texts import named, shown
 from pages.common.parts.formula import fitted
 from pages.common.parts.refusals import explain_refusal
 from pages.common.parts.sources import cited
@@ -55,7 +55,7 @@ def about(lesson: Lesson, design: Design) -> None:
 def _title(lesson: Lesson, step: int) -> None:
     with st.container(key="lesson_title", horizontal=True, vertical_alignment="center", gap="small"):
         st.button("All lessons", key="lesson_close", icon=":material/arrow_back:", on_click=in_use.close)
-        st.markdown(f"### {shown(lesson, lesson.title)}", width="content")
+        st.markdown(f"# {named(lesson, lesson.title)}", width="content")
         if lesson.source:
             st.markdown(f"{cited(lesson.source)} {shown(lesson, lesson.where)}", width="content")
         st.caption(f"{_name(lesson, step)}, step {step} of {lesson.steps}", width="content")
@@ -68,11 +68,11 @@ def _name(lesson: Lesson, step: int) -> str:
 
 def _question(lesson: Lesson) -> None:
     """The question alone, and the choices: one is pressed before anything moves."""
-    st.markdown(f"## {shown(lesson, lesson.question)}")
+    st.markdown(f"## {named(lesson, lesson.question)}")
     chosen = progress.prediction(lesson)
     for i, choice in enumerate(lesson.choices, start=1):
         st.button(
-            f"**{LETTERS[i - 1]}**  {shown(lesson, choice)}",
+            f"**{LETTERS[i - 1]}**  {named(lesson, choice)}",
             key=f"choice_{i}",
             type="primary" if i == chosen else "secondary",
             width="stretch",

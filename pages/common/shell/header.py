@@ -55,6 +55,9 @@ def show(place: str) -> Design:
 def _line(place: str, design: Design) -> None:
     """What is being worked on."""
     with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
+        if place != "home":  # which has a title of its own
+            named = "unseen" if place in CHAIN else ""  # the chain marks it for the eye
+            st.html(f'<h1 class="{named}">{TITLES[place]}</h1>', width="content")
         if tag := design.sheet.tag:
             st.markdown(exact(tag), width="content")
         if place == "cascade":
