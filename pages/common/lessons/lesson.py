@@ -25,6 +25,7 @@ SUBJECTS = {  # in the order in which they are taught
     "cascade": "Cascades",
 }
 SHOWS = ("tau_c", "settings", "plant", "cascade", "single", "half_rule", "bode", "built", "trend", "rules", "relay")
+MOVING = ("tau_c", "settings", "plant", "cascade")  # with something to move, and numbers
 PANELS = ("y", "u", "nyquist", "sensitivity")
 VIEWS = ("responses", "tradeoff")
 BASE = "base"  # the case of the design alone
@@ -164,7 +165,8 @@ class Lesson:
     @property
     def steps(self) -> int:
         """How many there are: play, question, moves, answer, and numbers where there are any."""
-        return self.answer_at + bool(self.numbers or self.printed or self.misprint)
+        moving = self.moves[-1].shows in MOVING
+        return self.answer_at + bool(self.printed or self.misprint or (self.numbers and moving))
 
     @property
     def answer_at(self) -> int:

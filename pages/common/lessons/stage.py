@@ -3,7 +3,7 @@
 from pages.common import live
 from pages.common.from_data.record_view import figure as record_figure
 from pages.common.half_rule import view as half_rule_view
-from pages.common.lessons.lesson import Lesson, Move
+from pages.common.lessons.lesson import BASE, Lesson, Move
 from pages.common.lessons.opened import design_of, opened
 from pages.common.parts.panel import show
 from pages.common.session.design import Design
@@ -89,7 +89,8 @@ def _relay(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...])
 
 
 def _rules(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
-    designs = [("now", design), *((named(case), design_of(lesson, case)) for case in move.behind)]
+    first = "now" if move.case == BASE else named(move.case)
+    designs = [(first, design), *((named(case), design_of(lesson, case)) for case in move.behind)]
     studies = [study_of_settings(each.plant, opened(each).row.controller) for _, each in designs]
     courses = list(zip([name for name, _ in designs], time_responses(studies, design.excitation), strict=True))
     show(output_figure(courses, HEIGHT), "rules_y", "Output y after a set-point step and a load step")

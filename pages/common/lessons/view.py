@@ -4,7 +4,7 @@ import streamlit as st
 
 from pages.common.lessons import in_use, progress
 from pages.common.lessons.answer import answer, numbers
-from pages.common.lessons.lesson import Lesson
+from pages.common.lessons.lesson import MOVING, Lesson
 from pages.common.lessons.stage import stage
 from pages.common.lessons.texts import named, shown
 from pages.common.parts.formula import fitted
@@ -12,7 +12,6 @@ from pages.common.parts.refusals import explain_refusal
 from pages.common.parts.sources import cited
 from pages.common.session import state
 from pages.common.session.design import Design
-from simc_core.notation import latex
 
 LETTERS = "ABCDE"
 QUESTION = 2
@@ -47,7 +46,8 @@ def about(lesson: Lesson, design: Design) -> None:
         return
     if lesson.subject == "cascade":
         blocks = design.cascade.primary, design.cascade.secondary
-        st.markdown(", ".join(f"$G_{name}(s) = {latex(block)}$" for name, block in zip("ab", blocks, strict=True)))
+        for name, block in zip("ab", blocks, strict=True):
+            st.markdown(f"$G_{name}(s) = {fitted(block)}$")
     else:
         st.markdown(f"$G(s) = {fitted(design.plant)}$")
 
@@ -110,7 +110,7 @@ def _way(lesson: Lesson, step: int) -> None:
                 on_click=in_use.open_at,
                 args=(lesson, step + 1),
             )
-        if step != QUESTION:
+        if step != QUESTION and lesson.move_at(step).shows in MOVING:
             st.button(
                 "Put back",
                 key="lesson_put_back",
