@@ -66,7 +66,7 @@ def look(design: Design, present: Study, baseline: Study | None) -> None:
             open_loop(studies)
     if error.open:
         with error:
-            model_error_view(present, design.excitation)
+            model_error_view(present, design)
     if built.open:
         with built:
             actuator_view(present, design)
