@@ -47,6 +47,8 @@ bench: $(VENV)/dev.stamp
 	$(BIN)/python -m benchmarks.optimum
 	$(BIN)/python -m benchmarks.identification
 	$(BIN)/python -m benchmarks.many
+	$(BIN)/python -m benchmarks.fuzz
+	$(BIN)/python -m benchmarks.bounds
 
 bench-ui: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m benchmarks.ui
