@@ -53,6 +53,7 @@ bench: $(VENV)/dev.stamp
 bench-ui: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m benchmarks.ui
 	$(BIN)/python -m benchmarks.switches
+	$(BIN)/python -m benchmarks.pages
 
 screenshots: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m tests.browser.readme_picture
