@@ -24,3 +24,10 @@ def test_the_bar(monkeypatch, step, last, shown):
     app = AppTest.from_string(SCRIPT.format(last=last)).run()
     assert not app.exception
     assert [bar.proto.text for bar in app.get("progress")] == shown
+
+
+def test_work_that_takes_too_long_ends_early(monkeypatch):
+    used = count(0.0, 1.0)
+    monkeypatch.setattr(in_sight, "thread_time", lambda: next(used))
+    app = AppTest.from_string(SCRIPT.format(last="z").replace('"Working"', '"Working", 2.5')).run()
+    assert [item.value for item in app.markdown] == ["a", "b"]

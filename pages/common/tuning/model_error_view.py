@@ -25,6 +25,7 @@ from simc_core.studies.plant_family import Robustness, robustness
 
 HEIGHT = 420  # px
 POINTS = 400
+LONGEST = 1.0  # seconds of processor for the responses; a lightly damped plant may take 0.15 each
 ERRORS = ("From the record", "In per cent")
 
 
@@ -57,13 +58,19 @@ def _changed(study: Study, excitation: Excitation) -> None:
     nominal = simulate(study.loop, excitation.scenario(disturbance_time=begins, t_end=t_end))
     asked = excitation.scenario(disturbance_time=begins, t_end=t_end, t=np.linspace(0.0, t_end, POINTS))
     cases = (*found.corners, *found.samples)
-    family = [simulate(case.loop, asked) for case in in_sight(cases, "Simulating changed plants")]
+    drawn = in_sight(cases, "Simulating changed plants", LONGEST)
+    family = [simulate(case.loop, asked) for case in drawn]
     worst = simulate(found.worst.loop, asked)
     omega = omega_grid([study.loop.L])
     left, right = st.columns(2, gap="small")
     with left:
         figure = bundle_figure(nominal, family, worst, HEIGHT)
         show(figure, "bundle", "Outputs y of the changed plants")
+        if len(family) < len(cases):
+            st.caption(
+                f"{len(family)} of {len(cases)} changed plants are drawn: their responses take long to compute. "
+                "$M_s$ and the limits are of all."
+            )
     with right:
         show(
             band_figure(found, study.loop.L(1j * omega), omega, HEIGHT), "band", "Nyquist curves of the changed plants"
