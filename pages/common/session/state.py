@@ -35,8 +35,11 @@ SENT_AGAIN = 5.0  # seconds for which a value put into a widget may be overtaken
 def begin() -> Design:
     """Read the address if it is new, then make it show the design. May be called more than once a run."""
     given = st.query_params.to_dict()
-    if asked := given.pop("view", ""):
-        st.session_state["asked_view"] = asked
+    view, panel, lecture = (given.pop(name, "") for name in ("view", "panel", "lecture"))
+    if view:
+        st.session_state["asked_view"] = view
+    if lecture:
+        st.session_state["asked_lecture"] = {"view": view, "panel": panel}
     if given and given != st.session_state.get("address") and not _late(given):
         design, ignored = links.decode(given)
         _keep(loops().with_design(design))
@@ -276,6 +279,11 @@ def asked_view() -> str:
     return st.session_state.pop("asked_view", "")
 
 
+def asked_lecture() -> dict[str, str]:
+    """View and panel of the lecture that a link asked for, told once; empty for none."""
+    return st.session_state.pop("asked_lecture", {})
+
+
 def ignored() -> list[Ignored]:
     """What the last address held that could not be used."""
     return st.session_state.get("ignored", [])
@@ -286,10 +294,10 @@ def dismiss_ignored() -> None:
     st.session_state["ignored"] = []
 
 
-def address() -> str:
-    """The address of this page with the design in it."""
+def address(**place: str) -> str:
+    """The address of this page with the design in it.   place: what else it names, such as a view."""
     base = (st.context.url or "").split("?")[0]
-    return f"{base}?{links.query(design_now())}"
+    return f"{base}?{links.query(design_now())}{''.join(f'&{name}={word}' for name, word in place.items())}"
 
 
 def parameters() -> dict[str, str]:

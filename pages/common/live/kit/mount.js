@@ -16,8 +16,8 @@ export function mount(name, make) {
     one.send = (what) => setTriggerValue("release", what);
     one.take(unpack(data));
     const box = letters(name);
-    box.open = (message) => one.take(message);
-    for (const message of box.waiting.splice(0)) one.take(message);
+    box.open = (message) => given(one, message);
+    for (const message of box.waiting.splice(0)) box.open(message);
     return () => {
       one.leave();
       one.unskip();
@@ -25,4 +25,11 @@ export function mount(name, make) {
       if (live.size === 0) box.open = null;
     };
   };
+}
+
+/** What is said of the lecture view is the same for all instruments. */
+function given(one, message) {
+  if (message.kind === "link") one.stage.show(message);
+  else if (message.kind === "lecture") one.stage.asked(message);
+  else one.take(message);
 }
