@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from pages.common.from_data import experiments, models_view, record_view, source, tuning_view, understood
+from pages.common.from_data import auto_view, experiments, models_view, record_view, source, tuning_view, understood
 from pages.common.from_data.graphical_view import graphical
 from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import sentence
@@ -35,6 +35,12 @@ with shown:
         else:
             models_view.ranking(fits, model, trend)
             models_view.card(model, trend, part)
-            tuning_view.show(work, trend, part, fits, model)
+            speed, auto = st.tabs(("How fast may the loop be?", "Auto-tuning"), key="ways", on_change="rerun")
+            if speed.open:
+                with speed:
+                    tuning_view.show(work, trend, part, fits, model)
+            if auto.open:
+                with auto:
+                    auto_view.show(work, trend, part, fits, model)
             graphical(part, model)
 experiments.show(design)

@@ -37,7 +37,7 @@ INK = """plot => {
 
 
 def stage(page: Page):
-    return page.locator("dialog.stage")
+    return page.locator("dialog.hall")
 
 
 def at_rest(page: Page) -> None:

@@ -5,9 +5,9 @@ import { test } from "node:test";
 
 import { marginsOf } from "../../pages/common/live/cascade/loops.js";
 import { nearest, round, text } from "../../pages/common/live/kit/format.js";
+import { crowded, typeFor } from "../../pages/common/live/kit/lecture.js";
 import { seen } from "../../pages/common/live/kit/overlay.js";
 import { logTicks, square } from "../../pages/common/live/kit/panel.js";
-import { crowded, typeFor } from "../../pages/common/live/kit/stage.js";
 import { between, mix, sensitivities, stencil, unpack } from "../../pages/common/live/kit/table.js";
 
 const cases = JSON.parse(readFileSync(process.env.SIMC_CASES, "utf-8"));

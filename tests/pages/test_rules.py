@@ -204,3 +204,16 @@ def test_bounds_are_told_by_name():
         Compared(plant="nowhere")
     with pytest.raises(InvalidParameter, match=r"Ms must be >= 1\.1"):
         Compared(Ms=1.0)
+
+
+def test_further_measures_are_columns_where_they_are_chosen():
+    """SIMC on e^{-s}/(8s+1): bandwidth of S 0.355417, IE tau_I/Kc = 2; a rule without settings has a dash."""
+    app = rules(unit="s")
+    assert "IE, load" not in app.dataframe[0].value
+    app.multiselect(key="rules_measures").set_value(["bandwidth of S", "IE, load", "settling to 5 %, load"]).run()
+    assert not app.exception
+    table = listed(app)
+    assert table["SIMC"]["bandwidth of S [rad/s]"] == pytest.approx(0.355417, abs=5e-7)
+    assert table["SIMC"]["IE, load"] == 2.0
+    assert table["SIMC"]["settling to 5 %, load [s]"] < table["Lambda"]["settling to 5 %, load [s]"]
+    assert np.isnan(table["symmetrical optimum"]["IE, load"])

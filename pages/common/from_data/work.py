@@ -1,6 +1,7 @@
 """The record that is being worked on: read once, then cut, cleaned and fitted. Pure: no streamlit."""
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from pages.common.from_data.examples import EXAMPLES, text_of
@@ -13,6 +14,7 @@ from simc_core.identification.reading.table import Table
 
 OF_A_FILE = ("decimal", "day_first", "sheet")  # what a file must be read anew for
 USUAL = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag")
+NEAR = 6.0  # of the criterion: structures that fit nearly as well are part of what is not known
 MORE = ("inverse", "oscillating", "DIPDT", "unstable")
 
 
@@ -82,6 +84,22 @@ class Work:
     def is_fitted(self, chosen: Chosen, structures: tuple[str, ...]) -> bool:
         """Whether this part has been fitted."""
         return self.fits is not None and self.fits.of == _asked(chosen, structures)
+
+
+def nearly(fits: Fits, model: Identified) -> tuple[Identified, ...]:
+    """The model, and the others that fit nearly as well: all that the record leaves open."""
+    others = (each for each in fits.found if each is not model and each.criterion <= NEAR)
+    return (replace(model, criterion=0.0), *others)
+
+
+def kept(fits: Fits, key: tuple[Any, ...], make: Callable[[], Any]) -> tuple[Any, str]:
+    """What was computed for these fits already, else now; and why there is nothing."""
+    if key not in fits.known:
+        try:
+            fits.known[key] = (make(), "")
+        except SimcError as error:
+            fits.known[key] = (None, str(error))
+    return fits.known[key]
 
 
 def _asked(chosen: Chosen, structures: tuple[str, ...]) -> tuple[Any, ...]:

@@ -110,21 +110,24 @@ def candidates(reduction: Reduction) -> None:
 def comparison(study: Study) -> None:
     """Reduced against full model: over time, over frequency, and in numbers."""
     compared = model_error(study.loop.plant, study.model, study.controller)
-    step, bode, error = st.tabs(["Step response", "Bode", "Error over frequency"], key="comparison")
-    with step:
-        show(
-            plant_step_figure(compared.step, compared.model_step, HEIGHT), "steps", "Step responses of plant and model"
-        )
-    with bode:
-        show(bode_figure(study.loop.plant, study.model.plant, TALL), "bodes", "Bode diagrams of plant and model")
-    with error:
-        show(
-            model_error_figure(compared.omega, compared.error, compared.bound, HEIGHT), "error", "Relative model error"
-        )
-        st.caption(
-            "The loop designed on the model $G_r$ is stable around $G$ where "
-            "$|G - G_r|/|G_r| < 1/|T|$ at all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
-        )
+    step, bode, error = st.tabs(
+        ["Step response", "Bode", "Error over frequency"], key="comparison", on_change="rerun"
+    )  # only the open one is made
+    if step.open:
+        with step:
+            figure = plant_step_figure(compared.step, compared.model_step, HEIGHT)
+            show(figure, "steps", "Step responses of plant and model")
+    if bode.open:
+        with bode:
+            show(bode_figure(study.loop.plant, study.model.plant, TALL), "bodes", "Bode diagrams of plant and model")
+    if error.open:
+        with error:
+            figure = model_error_figure(compared.omega, compared.error, compared.bound, HEIGHT)
+            show(figure, "error", "Relative model error")
+            st.caption(
+                "The loop designed on the model $G_r$ is stable around $G$ where "
+                "$|G - G_r|/|G_r| < 1/|T|$ at all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
+            )
     numbers(compared)
 
 

@@ -51,8 +51,10 @@ def cards(examples: tuple[Example, ...], name: str) -> None:
 
 def papers() -> None:
     """The examples of the papers, by name."""
-    with st.expander("Examples of the papers"):
-        cards(EXAMPLES, "papers")
+    folded = st.expander("Examples of the papers", key="papers", on_change="rerun")
+    if folded.open:
+        with folded:
+            cards(EXAMPLES, "papers")
 
 
 def _begin(plant: Plant, mine: bool) -> None:

@@ -2,7 +2,7 @@
 
 import re
 from base64 import b64encode
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import streamlit as st
@@ -21,7 +21,7 @@ UPLOT = HERE / "vendor" / "uplot.min.js"
 def _instrument(name: str):
     html = _text(HERE / "kit" / "live.html")
     css = palette.css_variables(".live") + _text(
-        UPLOT.with_suffix(".css"), HERE / "kit" / "live.css", HERE / "kit" / "stage.css"
+        UPLOT.with_suffix(".css"), HERE / "kit" / "live.css", HERE / "kit" / "lecture.css"
     )
     js = _text(UPLOT) + bundled(HERE / name / "main.js")
     return st.components.v2.component(f"simc_live_{name}", html=html, css=css, js=js)
@@ -33,6 +33,12 @@ def _text(*files: Path) -> str:
 
 _instruments = {name: _instrument(name) for name in ("tuning", "cascade", "hand")}
 message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
+
+
+def staged(name: str, panels: Sequence[str], figures: Sequence[str], view: str) -> None:
+    """Leave of the instrument `name`, which is on this page, these panels (none: all) and these numbers."""
+    told = {"kind": "stage", "to": name, "panels": list(panels), "figures": list(figures), "view": view}
+    message(key=f"stage_{name}", data=pack(told, {}))
 
 
 def show(name: str, key: str, data: bytes, take: Callable[[Mapping], None]) -> int:

@@ -30,14 +30,14 @@ def facts(plant: Plant) -> None:
 def figures(plant: Plant) -> None:
     """Step response, pole-zero map and Bode diagram."""
     left, right = st.columns([3, 2])
-    for place, title, figure in (
-        (left, "Step response", plant_step_figure(plant_step(plant), height=HEIGHT)),
-        (right, "Poles and zeros", pole_zero_figure(plant, HEIGHT)),
-        (st.container(), "Bode diagram", bode_figure(plant, height=TALL)),
+    for place, title, key, figure in (
+        (left, "Step response", "plant_step", plant_step_figure(plant_step(plant), height=HEIGHT)),
+        (right, "Poles and zeros", "plant_roots", pole_zero_figure(plant, HEIGHT)),
+        (st.container(), "Bode diagram", "plant_bode", bode_figure(plant, height=TALL)),
     ):
-        place.markdown(f"**{title}**")
         with place:
-            show(figure, f"plant_{title.split()[0].lower()}", f"{title} of the plant")
+            st.markdown(f"**{title}**")
+            show(figure, key, f"{title} of the plant")
 
 
 def _roots(roots) -> str:

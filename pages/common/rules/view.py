@@ -11,6 +11,7 @@ from pages.common.rules.table import Question, frame, key_of, rows_of, shown
 from pages.common.session import state
 from pages.common.session.compared import KINDS, OPTIMAL, PRESENT, USUAL
 from pages.common.session.design import Design
+from pages.common.studies.measures import EXAMPLES, MEANINGS, MEASURES
 from pages.common.studies.single import Study
 from simc_core.figures import trade_off_figure, tuning_plane_figure
 from simc_core.figures.rules import Point
@@ -104,6 +105,14 @@ def table(question: Question) -> list[Row]:
     made, rows = rows_of(question), []
     sheet = state.design_now().sheet
     bar, place, growing = st.empty(), st.empty(), not made.complete
+    more = st.multiselect(
+        "More columns",
+        list(MEASURES),
+        key="rules_measures",
+        persist_state="session",
+        placeholder=EXAMPLES,
+        help=MEANINGS,
+    )
     for row in made:
         rows.append(row)
         if growing and len(rows) % AT_ONCE == 0:
@@ -111,7 +120,7 @@ def table(question: Question) -> list[Row]:
             place.dataframe(shown(frame(rows, question, sheet)), hide_index=True, height=TALL, row_height=ROW)
     bar.empty()
     state.remember("rules_rows", [key_of(row) for row in rows])
-    found = frame(rows, question, sheet)
+    found = frame(rows, question, sheet, more)
     place.dataframe(
         shown(found),
         hide_index=True,

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.frequency_response import FrequencyResponse, frequency_response
 from simc_core.loops.loop import Loop
 from simc_core.metrics.performance import Performance, performance
-from simc_core.metrics.step_metrics import StepMetrics
+from simc_core.metrics.step_records import StepMetrics
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.reduction.records import Reduction
@@ -89,9 +89,14 @@ def present_study(design: Design) -> Study:
 
 def study_of_settings(plant: Plant, controller: Controller) -> Study:
     """Settings that were typed, around this plant: no model and no rule stand behind them."""
+    found = judged_settings(plant, controller)
+    return replace(found, performance=_measured(found.loop)) if found.stable else found
+
+
+def judged_settings(plant: Plant, controller: Controller) -> Study:
+    """The same with its margins alone: also of a controller whose u a set-point step would make infinite."""
     loop = Loop(plant, controller)
-    judged = margins(loop)
-    return Study(Tuning(), None, loop, judged, _measured(loop) if judged.stable else None)
+    return Study(Tuning(), None, loop, margins(loop), None)
 
 
 def _measured(loop: Loop) -> Performance:

@@ -142,9 +142,11 @@ def _presets(study: Study) -> None:
             name = "θ" if factor == 1 else f"{number(factor)} θ"
             usual = math.isclose(value, usual_tau_c(study.tuning.rule, study.model), rel_tol=SAME)
             _choice(f"multiple_{number(factor)}", name, value, study, "" if usual else f"{factor:g}theta")
-    with st.expander("Choices of the literature"), st.container(key="presets"):
-        for name, value in presets_of(study.tuning.rule, study.model).items():
-            _choice(f"preset_{name}", name, value, study, "" if name == "tight" else name)
+    folded = st.expander("Choices of the literature", key="literature", on_change="rerun")
+    if folded.open:
+        with folded, st.container(key="presets"):
+            for name, value in presets_of(study.tuning.rule, study.model).items():
+                _choice(f"preset_{name}", name, value, study, "" if name == "tight" else name)
     st.caption(model_in_use(study.model))
 
 

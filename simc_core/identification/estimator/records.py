@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from simc_core.identification.estimator.held_input import Array, HeldInput
 from simc_core.identification.estimator.outliers import spikes
@@ -10,6 +11,8 @@ from simc_core.identification.trend import Trend
 
 OFTEN = 0.3  # moves of OP for each sample, from where it moves all the time
 MANY_MOVES = 100  # more than these, and a mean may take in a move of OP: they are everywhere
+GAP = 20  # intervals, and
+LONG = 0.1  # share of the whole time, without a sample: a gap
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,15 +32,28 @@ class Record:
         """Instant of the first move of OP, not before the first sample."""
         return max(float(self.held.s[0]), 0.0)
 
+    @property
+    def gaps(self) -> NDArray[np.bool_]:
+        """Which steps from sample to sample are gaps of the record, shape (n - 1,)."""
+        return np.diff(self.t) > max(GAP * self.interval, LONG * self.span)
+
+    @property
+    def stretch(self) -> float:
+        """Longest time without a gap."""
+        ends = np.concatenate([[-1], np.flatnonzero(self.gaps), [self.t.size - 1]])
+        return float(np.max(self.t[ends[1:]] - self.t[ends[:-1] + 1]))
+
     def weighted(self, weight: Array) -> "Record":
         """The same samples with other weights."""
         return Record(self.t, self.y, weight, self.held, self.span, self.interval, self.even)
 
     def reduced(self, points: int) -> "Record":
-        """At most about `points` weighted means of neighbours; a mean takes in no move of OP where these are few."""
+        """At most about `points` weighted means of neighbours; a mean takes in no gap, and no
+        move of OP where these are few."""
         if self.t.size <= points:
             return self
         label = np.arange(self.t.size) * points // self.t.size
+        label = label + np.concatenate([[0], np.cumsum(self.gaps)])
         if self.held.s.size <= MANY_MOVES:
             label = label + np.searchsorted(self.held.s, self.t, "right")
         label = np.unique(label, return_inverse=True)[1]

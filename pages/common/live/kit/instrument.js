@@ -5,10 +5,10 @@
 
 import { LABELS } from "./curves.js";
 import { button } from "./format.js";
+import { Lecture } from "./lecture.js";
 import { cross } from "./overlay.js";
 import { savePng, saveSvg } from "./picture.js";
 import { Slider } from "./slider.js";
-import { Stage } from "./stage.js";
 
 const PERIOD = 8000; // ms for tau_c to go up and down once
 const STEP = 500; // ms from one place to the next where the user asked for less motion
@@ -32,9 +32,9 @@ export class Instrument {
     );
     find(".views").append(...(views.length > 1 ? this.tabs : []));
     find(".keys").textContent = hint;
-    this.stage = new Stage(this);
+    this.lecture = new Lecture(this);
     find(".play").onclick = () => this.sweep();
-    find(".lecture").onclick = () => this.lecture();
+    find(".lecture").onclick = () => this.lecture.toggle();
     find(".png").onclick = () => savePng(this);
     find(".svg").onclick = () => saveSvg(this);
     root.addEventListener("keydown", (event) => this.key(event));
@@ -65,7 +65,7 @@ export class Instrument {
     this.slider = slider;
     this.paused = null;
     this.stop();
-    this.haunt();
+    this.lecture.haunt();
     this.frame ??= requestAnimationFrame(() => {
       this.frame = null;
       this.show();
@@ -84,10 +84,34 @@ export class Instrument {
     const now = this.reading();
     if (now.curves !== false) this.views[this.view]?.draw(now);
     this.figures(now);
+    this.veil();
     this.root.dataset.exact = now.exact;
     this.around(!now.exact && this.movesSettings);
     this.root.dataset.drawn = this.slider.tau_c;
     if (now.exact) this.describe(now);
+  }
+
+  /** A lesson shows some panels, and some figures or none. panels, figures: names; none of panels: all. */
+  stage({ panels, figures, view }) {
+    this.staged = { panels, figures };
+    this.root.classList.add("staged");
+    this.root.style.setProperty("--rows", panels.length === 4 || !panels.length ? 2 : panels.length);
+    if (this.view === view) this.veil();
+    else this.look(view);
+    requestAnimationFrame(() => this.fit());
+  }
+
+  veil() {
+    if (!this.staged) return;
+    const { panels, figures } = this.staged;
+    const veiled = (element, yes) => element.style.setProperty("display", yes ? "none" : "");
+    for (const cell of this.root.querySelectorAll("[data-figure]"))
+      veiled(cell, !figures.includes(cell.dataset.figure));
+    veiled(this.root.querySelector(".strip"), !figures.length);
+    for (const box of this.root.querySelectorAll("figure"))
+      veiled(box, panels.length > 0 && !panels.includes(box.dataset.panel));
+    this.root.classList.toggle("few", panels.length > 0 && panels.length < 4);
+    this.root.classList.toggle("told", figures.length > 0);
   }
 
   /** The rest of the page: what it says of the settings waits until they come to rest (parts/style.css). */
@@ -103,13 +127,14 @@ export class Instrument {
   /** It leaves the page. */
   leave() {
     this.stop();
-    if (this.stage.open) this.stage.leave();
+    if (this.lecture.open) this.lecture.leave();
     this.around(false);
   }
 
   /** The panels in words, for those who do not see them; only when at rest. */
   describe(now) {
-    const words = this.stage.hides ? "Numbers are hidden" : this.words(now);
+    const veiled = this.lecture.hides || (this.staged && !this.staged.figures.length);
+    const words = veiled ? this.title() : this.words(now);
     for (const panel of this.views[this.view].panels)
       panel.plot.setAttribute("aria-label", `${panel.spec.title}. ${words}`);
     this.root.querySelector(".spoken").textContent = words;
@@ -118,7 +143,7 @@ export class Instrument {
   /** Panels anew: another table, theme, or size of type. end: of the time axis; another one ends a zoom there. */
   rebuild(end = this.end) {
     if (!this.furnished) return;
-    const { scale } = this.stage;
+    const { scale } = this.lecture;
     const style = getComputedStyle(this.root);
     const color = style.getPropertyValue("--st-text-color").trim() || style.color;
     this.theme = {
@@ -135,16 +160,16 @@ export class Instrument {
       for (const panel of panels) {
         const { zoom = null, ghost = null } = former[panel.spec.key] ?? {};
         panel.zoom = panel.spec.along === "t" && end !== this.end ? null : zoom;
-        panel.ghost = this.stage.open && ghost?.length === panel.spec.styles.length ? ghost : null;
+        panel.ghost = this.lecture.open && ghost?.length === panel.spec.styles.length ? ghost : null;
         panel.pointed = (axis, value) => this.point(axis, value);
         panel.single.onclick = () => this.alone(panel.spec.key);
         panel.box.classList.toggle("shown", panel.spec.key === this.only);
       }
     }
     this.end = end;
-    this.hidden();
+    this.lecture.veil();
     this.look(this.view);
-    this.stage.settle();
+    this.lecture.settle();
   }
 
   /** All panels of all views. */
@@ -152,26 +177,11 @@ export class Instrument {
     return Object.values(this.views).flatMap(({ panels }) => panels);
   }
 
-  /** The panels know what a lecture hides: the future from the crosshair on, or from the middle. */
-  hidden() {
-    const now = this.pointer?.axis === "t" ? this.pointer.value : this.end / 2;
-    for (const panel of this.panels) {
-      panel.hides = this.stage.hides === "numbers" ? "" : this.stage.hides;
-      panel.until = panel.spec.along === "t" ? now : Number.NEGATIVE_INFINITY; // a frequency tells the whole future
-    }
-  }
-
   /** As it was, with something hidden or shown. */
   redraw() {
-    this.hidden();
+    this.lecture.veil();
     for (const panel of this.panels) panel.redraw();
     this.show();
-  }
-
-  /** In a lecture: the curves as they are stay behind those that come. */
-  haunt() {
-    if (!this.stage.open || this.root.dataset.exact !== "true") return;
-    for (const panel of this.panels) panel.ghost = panel.curves;
   }
 
   /** One crosshair through all panels; value undefined: none. */
@@ -225,7 +235,7 @@ export class Instrument {
   /** The sweep begins, or ends where it began; in a lecture it pauses where it is, and goes on from there. */
   sweep() {
     if (!this.playing) this.play();
-    else if (this.stage.open) this.pause();
+    else if (this.lecture.open) this.pause();
     else this.stop(true);
   }
 
@@ -233,7 +243,7 @@ export class Instrument {
   play() {
     const slider = this.slider;
     if (slider.fixed) return;
-    this.haunt();
+    this.lecture.haunt();
     const { middle, gone } = this.paused ?? { middle: slider.tau_c, gone: 0 };
     const begin = performance.now() - gone;
     const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -271,19 +281,13 @@ export class Instrument {
     this.show();
   }
 
-  /** Begin the lecture view, or leave it. */
-  lecture() {
-    if (this.stage.open) this.stage.leave();
-    else this.stage.enter();
-  }
-
   key(event) {
     if (event.target.matches("input") || event.ctrlKey || event.metaKey || event.altKey) return;
     const panel = this.views[this.view]?.panels.find((each) => each.box.contains(event.target));
     if (this.preset(Number(event.key))) event.preventDefault();
     else if (event.key === " " && !event.target.matches("button")) this.sweep();
-    else if (event.key === "l" || event.key === "L") this.lecture();
-    else if (this.stage.key(event.key)) event.preventDefault();
+    else if (event.key === "l" || event.key === "L") this.lecture.toggle();
+    else if (this.lecture.key(event.key)) event.preventDefault();
     else if (event.key === "Escape" && panel?.zoom) panel.reset();
     else return;
     event.preventDefault();

@@ -27,9 +27,10 @@ export function mount(name, make) {
   };
 }
 
-/** What is said of the lecture view is the same for all instruments. */
+/** What is said of lessons and of the lecture view is the same for all instruments. */
 function given(one, message) {
-  if (message.kind === "link") one.stage.show(message);
-  else if (message.kind === "lecture") one.stage.asked(message);
+  if (message.kind === "link") one.lecture.show(message);
+  else if (message.kind === "lecture") one.lecture.asked(message);
+  else if (message.kind === "stage") one.stage(message);
   else one.take(message);
 }

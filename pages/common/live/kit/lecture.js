@@ -13,7 +13,7 @@ export const typeFor = (width, height) => Math.max(LEAST, ON_SCREEN * Math.min(w
 
 export const crowded = (width, height) => width < ROOM[0] || height < ROOM[1];
 
-export class Stage {
+export class Lecture {
   constructor(live) {
     this.live = live;
     this.dialog = null;
@@ -46,7 +46,7 @@ export class Stage {
     const { live } = this;
     this.begun = live.sliders.map((slider) => slider.tau_c);
     this.dialog = document.createElement("dialog");
-    this.dialog.className = "stage";
+    this.dialog.className = "hall";
     this.dialog.setAttribute("aria-label", "Lecture view");
     this.card = Object.assign(document.createElement("div"), { className: "card", hidden: true });
     live.root.before(this.dialog);
@@ -105,6 +105,27 @@ export class Stage {
     for (const hider of this.hiders) hider.setAttribute("aria-pressed", String(hider.value === this.hides));
     this.live.root.dataset.hides = this.hides;
     this.live.redraw();
+  }
+
+  /** The panels know what is hidden: the future from the crosshair on, or from the middle. */
+  veil() {
+    const { pointer, end, panels } = this.live;
+    for (const panel of panels) {
+      panel.hides = this.hides === "numbers" ? "" : this.hides;
+      // a frequency tells the whole future
+      panel.until = panel.spec.along !== "t" ? -Infinity : pointer?.axis === "t" ? pointer.value : end / 2;
+    }
+  }
+
+  /** The curves as they are stay behind those that come. */
+  haunt() {
+    if (!this.open || this.live.root.dataset.exact !== "true") return;
+    for (const panel of this.live.panels) panel.ghost = panel.curves;
+  }
+
+  toggle() {
+    if (this.open) this.leave();
+    else this.enter();
   }
 
   toBegin() {
