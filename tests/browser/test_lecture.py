@@ -65,6 +65,7 @@ def test_letters_are_as_large_as_the_last_row_needs_and_all_fits(place, server, 
         small = [each for each in seen["letters"] if each[0] < least * 0.999]
         assert not small, (width, small)
         assert not seen["scrolls"], width
+        assert page.locator(".hall [data-figure]:visible").count() == 4
         assert seen["handle"] >= 1.3 * least
         assert len(seen["plots"]) == (1 if (width, height) == SIZES[-1] else 4)
         for across, high, bottom in seen["plots"]:
