@@ -5,6 +5,7 @@ degrees. None is found where no shape has a robust gain. Settings are found for 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -78,19 +79,51 @@ class Search:
                 "tau_F must be > 0 for a PID controller of a plant that answers at once (of relative degree 0), found 0"
             )
 
-    def best(self, M: float, warm: Found | None = None) -> tuple[Optimum, Found]:
-        """The optimum for max(Ms, Mt) <= M. warm: that for a larger bound. Raises NoOptimum."""
-        problem = Problem(self.plant, self.criterion, M, self.scale, self.tau_F)
-        self._refuse_endless(problem)
-        if self.kind == "PI":
-            found = best_pi(problem)
-        else:
-            found = best_pid(problem, self.series, self.guess, warm)
-            if found is None and warm is not None:
-                found = best_pid(problem, self.series, self.guess)
+    def best(self, M: float) -> Optimum:
+        """The optimum for max(Ms, Mt) <= M. Raises NoOptimum."""
+        problem = self._problem(M)
+        found = best_pi([problem])[0] if self.kind == "PI" else best_pid(problem, self.series, self.guess)
         if found is None:
             raise NoOptimum(self._infeasible(problem))
-        return self._optimum(problem, found), found
+        return self._optimum(problem, found)
+
+    def front(self, bounds: Sequence[float]) -> list[Optimum]:
+        """The optima for bounds in descending order, up to the first that has none. Raises NoOptimum without any.
+
+        What is best without a bound is best under all bounds that it meets. PI controllers are searched for together,
+        each PID controller from those for larger bounds.
+        """
+        found = [self.best(bounds[0])]
+        free = [] if found[0].active else [M for M in bounds[1:] if max(found[0].Ms, found[0].Mt) <= M]
+        found += found * len(free)
+        problems = [self._problem(M) for M in bounds[len(found) :]]
+        if self.kind == "PID":
+            return self._one_after_the_other(found, problems)
+        for problem, best in zip(problems, best_pi(problems) if problems else [], strict=True):
+            if best is None:
+                break
+            found.append(self._optimum(problem, best))
+        return found
+
+    def _one_after_the_other(self, found: list[Optimum], problems: Sequence[Problem]) -> list[Optimum]:
+        """PID: each search begins where the last ones ended."""
+        for problem in problems:
+            last = found[-1]
+            if not last.active and max(last.Ms, last.Mt) <= problem.M:
+                found.append(last)
+                continue
+            best = best_pid(problem, self.series, self.guess, _warm(found))
+            best = best or best_pid(problem, self.series, self.guess)
+            if best is None:
+                break
+            found.append(self._optimum(problem, best))
+        return found
+
+    def _problem(self, M: float) -> Problem:
+        """Raises NoOptimum where ever better controllers meet the bound."""
+        problem = Problem(self.plant, self.criterion, M, self.scale, self.tau_F)
+        self._refuse_endless(problem)
+        return problem
 
     def _optimum(self, problem: Problem, found: Found) -> Optimum:
         sign, c = problem.sign, problem.criterion.weighs_derivative if found.tau_D else 0.0
@@ -133,12 +166,17 @@ class Search:
         return f"{said}: the smallest that was found is about {high:.3g}"
 
 
+def _warm(found: Sequence[Optimum]) -> Found:
+    """Where the search for the next bound begins."""
+    last = found[-1].controller.to_ideal()
+    return Found(abs(last.Kc), last.tau_I, last.tau_D, found[-1].value)
+
+
 @lru_cache(maxsize=64)
 def references(plant: Plant, scale: float) -> References:
     """IAE of the PI controllers that are best for set point and for load with Ms = 1.59 [SG12]. Raises NoOptimum."""
     values = [
-        Search(plant, "PI", Criterion(plant, name), scale, 0.0).best(REFERENCE_M)[0].value
-        for name in ("setpoint", "load")
+        Search(plant, "PI", Criterion(plant, name), scale, 0.0).best(REFERENCE_M).value for name in ("setpoint", "load")
     ]
     return References(*values)
 

@@ -126,7 +126,7 @@ class _Judge:
     def best(self, kind: str, M: float) -> Row:
         """The optimum."""
         try:
-            found = self._search(kind).best(M)[0]
+            found = self._search(kind).best(M)
         except SimcError as refused:
             return _none("optimal", kind, math.nan, str(refused))
         controller = filtered(found.controller, found.controller.tau_F)
@@ -180,12 +180,12 @@ class _Judge:
         if not len(x) or log_Mst > x[-1] + EQUAL_PEAKS:
             return math.nan
         if log_Mst < x[0] - EQUAL_PEAKS:  # more cautious than the front begins
-            return value / self._search(kind).best(Mst)[0].value - 1
+            return value / self._search(kind).best(Mst).value - 1
         if len(x) == 1:
             return value / math.exp(y[0]) - 1
         behind = value / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1
         if behind < NEAR_OPTIMUM:
-            behind = value / self._search(kind).best(Mst)[0].value - 1
+            behind = value / self._search(kind).best(Mst).value - 1
         return behind
 
     def _front(self, kind: str) -> np.ndarray:
@@ -197,7 +197,7 @@ class _Judge:
     def _least(self, kind: str) -> list[tuple[float, float]]:
         try:
             if self.M is not None:
-                return [(self.M, self._search(kind).best(self.M)[0].value)]
+                return [(self.M, self._search(kind).best(self.M).value)]
             return [(M, each.value) for M, each in front(self.plant, kind, self.criterion, self._filter(kind))]
         except SimcError:
             return []
