@@ -112,7 +112,7 @@ class Search:
             if not last.active and max(last.Ms, last.Mt) <= problem.M:
                 found.append(last)
                 continue
-            best = best_pid(problem, self.series, self.guess, _warm(found))
+            best = best_pid(problem, self.series, self.guess, _warm(found, problem.M))
             best = best or best_pid(problem, self.series, self.guess)
             if best is None:
                 break
@@ -166,10 +166,20 @@ class Search:
         return f"{said}: the smallest that was found is about {high:.3g}"
 
 
-def _warm(found: Sequence[Optimum]) -> Found:
-    """Where the search for the next bound begins."""
-    last = found[-1].controller.to_ideal()
-    return Found(abs(last.Kc), last.tau_I, last.tau_D, found[-1].value)
+def _warm(found: Sequence[Optimum], M: float) -> Found:
+    """Where the search for the next bound begins: where the last two point to."""
+    last = _settings(found[-1])
+    if len(found) > 1 and found[-1].active and found[-2].active:
+        before, (M_before, M_last) = _settings(found[-2]), (max(each.Ms, each.Mt) for each in found[-2:])
+        share = math.log(M / M_last) / math.log(M_last / M_before)
+        ahead = last * (last / before) ** share
+        last = ahead if np.isfinite(ahead).all() else last
+    return Found(*last.tolist(), found[-1].value)
+
+
+def _settings(optimum: Optimum) -> np.ndarray:
+    form = optimum.controller.to_ideal()
+    return np.array([abs(form.Kc), form.tau_I, form.tau_D])
 
 
 @lru_cache(maxsize=64)

@@ -41,7 +41,8 @@ def lowest(known: list[tuple[float, float]]) -> Walk:
         if c - a > SHRUNK * before:
             tried.append((a + b) / 2 if b - a > c - b else (b + c) / 2)
         before = c - a
-        apart, places = APART * (c - a), []
+        apart = APART * (c - a)
+        places: list[float] = []
         for x in sorted(x for x in tried if a < x < c):
             if min(abs(x - other) for other in (a, b, c, *places)) > apart:
                 places.append(x)
