@@ -174,7 +174,8 @@ def _warm(found: Sequence[Optimum], M: float) -> Found:
         share = math.log(M / M_last) / math.log(M_last / M_before)
         ahead = last * (last / before) ** share
         last = ahead if np.isfinite(ahead).all() else last
-    return Found(*last.tolist(), found[-1].value)
+    Kc, tau_I, tau_D = last.tolist()
+    return Found(Kc, tau_I, tau_D, found[-1].value)
 
 
 def _settings(optimum: Optimum) -> np.ndarray:

@@ -1,6 +1,7 @@
 """Tuning rules compared fairly: on one plant, as published and at equal robustness, beside the optimum."""
 
 import math
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
@@ -134,6 +135,8 @@ class _Judge:
         self.references = self._references()
         self.fronts: dict[str, np.ndarray] = {}
         self.judged: dict[Controller, _Judged] = {}
+        self.published: dict[str, list[Controller]] = defaultdict(list)
+        self.least: dict[str, dict[float, float]] = {}
 
     def best(self, kind: str, M: float) -> Row:
         """The optimum."""
@@ -146,11 +149,10 @@ class _Judge:
 
     def prepare(self, asked: Sequence[tuple[str, str]]) -> None:
         """Judge the rules as published, all together."""
-        published = []
         for key, kind in asked:
             with suppress(SimcError):
-                published.append(detunable(key, self.plant, kind, self.tau_F)(1.0))
-        self._judge(published)
+                self.published[kind].append(detunable(key, self.plant, kind, self.tau_F)(1.0))
+        self._judge([each for own in self.published.values() for each in own])
 
     def rule(self, key: str, kind: str) -> Row:
         """One rule."""
@@ -177,8 +179,7 @@ class _Judge:
             raise judged.performance
         both = judged.performance
         load, setpoint = both.disturbance.IAE, both.setpoint.IAE
-        combined = float(J(self.references, setpoint, load)) if self.references else math.nan
-        value = {"load": load, "setpoint": setpoint, "J": combined}[self.criterion]
+        combined, value = self._values(both)
         return Row(
             key,
             kind,
@@ -206,20 +207,54 @@ class _Judge:
             self.judged[controller] = _Judged(peak_of(each), performed.get(i))
         return [self.judged[each] for each in controllers]
 
+    def _values(self, both: Performance) -> tuple[float, float]:
+        """J, and the criterion."""
+        load, setpoint = both.disturbance.IAE, both.setpoint.IAE
+        combined = float(J(self.references, setpoint, load)) if self.references else math.nan
+        return combined, {"load": load, "setpoint": setpoint, "J": combined}[self.criterion]
+
     def _behind(self, kind: str, Mst: float, value: float) -> float:
         """Relative distance of the criterion to that of the best controller with the same peak."""
+        behind = self._behind_front(kind, Mst, value)
+        return value / self._least_at(kind, Mst) - 1 if self._too_near(behind) else behind
+
+    def _behind_front(self, kind: str, Mst: float, value: float) -> float:
+        """The same, by what lies between the bounds of the front; -inf for more cautious than it begins."""
         x, y = self._front(kind)
         log_Mst = math.log(Mst)
         if not len(x) or log_Mst > x[-1] + EQUAL_PEAKS:
             return math.nan
-        if log_Mst < x[0] - EQUAL_PEAKS:  # more cautious than the front begins
-            return value / self._search(kind).best(Mst).value - 1
+        if log_Mst < x[0] - EQUAL_PEAKS:
+            return -math.inf
         if len(x) == 1:
             return value / math.exp(y[0]) - 1
-        behind = value / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1
-        if behind < NEAR_OPTIMUM:
-            behind = value / self._search(kind).best(Mst).value - 1
-        return behind
+        return value / math.exp(float(PchipInterpolator(x, y)(log_Mst))) - 1
+
+    def _too_near(self, behind: float) -> bool:
+        """Whether the front, which is known at its bounds only, does not tell it."""
+        return behind < NEAR_OPTIMUM and (self.M is None or behind == -math.inf)
+
+    def _least_at(self, kind: str, Mst: float) -> float:
+        """The least criterion with that peak; those of all rules that need it are found together. Raises NoOptimum."""
+        if kind not in self.least:
+            wanted = sorted(self._near(kind), reverse=True)
+            with suppress(SimcError):
+                found = self._search(kind).front(wanted) if wanted else []
+                self.least[kind] = {M: each.value for M, each in zip(wanted, found, strict=False)}
+        known = self.least.setdefault(kind, {})
+        if Mst not in known:
+            known[Mst] = self._search(kind).best(Mst).value
+        return known[Mst]
+
+    def _near(self, kind: str) -> set[float]:
+        """Peaks of the rules as published that are too near the front."""
+        judged = [self.judged[each] for each in self.published[kind]]
+        return {
+            each.Mst
+            for each in judged
+            if isinstance(each.performance, Performance)
+            and self._too_near(self._behind_front(kind, each.Mst, self._values(each.performance)[1]))
+        }
 
     def _front(self, kind: str) -> np.ndarray:
         """Logarithms of bounds and of the least values of the criterion."""

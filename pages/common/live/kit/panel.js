@@ -7,7 +7,8 @@ export const ALARM = "--simc-alarm";
 export class Panel {
   /**
    * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)},
-   * styles [{color, dash, width, alpha, fill}], square: one unit is as long on both axes.   tell(panel, x, y): what to read at the cursor.
+   * styles [{color, dash, width, alpha, fill}], square: one unit is as long on both axes.
+   * tell(panel, x, y): what to read at the cursor.
    */
   constructor(spec, scale) {
     this.spec = spec;
