@@ -14,8 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from simc_core import checks
 from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
+
+MOST_SCANS = 100  # between a sample and the output made of it
 
 Signal = float | np.ndarray
 
@@ -83,6 +86,11 @@ def known_law(law: str) -> str:
     if law not in LAWS:
         raise InvalidParameter(f"law must be one of {', '.join(LAWS)}, found {law!r}")
     return law
+
+
+def scans(name: str, value: int) -> int:
+    """Whole sampling periods after which an output is written, if they are some. Raises InvalidParameter."""
+    return checks.whole(name, value, 0, MOST_SCANS)
 
 
 def law_for(law: str, pid: ParallelPid, h: float) -> Law:

@@ -12,10 +12,11 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers.forms import Controller, ParallelPid
+from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.plants.models import Model
+from simc_core.rules.domain import in_words
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins_many
 
@@ -24,6 +25,11 @@ POINTS = 121
 TOO_HIGH = 1.1  # Ms between rows over the highest one at a row, above which a warning is due
 BETWEEN = ("model", "PB")
 GAIN_OF_PLANT = ("linear", "exponential")
+FORM_OF: dict[type, str] = {
+    SeriesPid: "the series form",
+    IdealPid: "the ideal form",
+    IController: "pure integral action",
+}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,8 +74,8 @@ class GainSchedule:
         for i, model in enumerate(models):
             if not isinstance(model, Model) or type(model) is not type(models[0]):
                 raise InvalidParameter(
-                    f"models must be reduced models of one kind, found {type(models[0]).__name__} in row 1 and "
-                    f"{type(model).__name__} in row {i + 1}"
+                    f"models must be reduced models of one kind, found {in_words(models[0])} in row 1 and "
+                    f"{in_words(model)} in row {i + 1}"
                 )
             if model.plant.k * models[0].plant.k < 0:
                 raise InvalidParameter(f"gains must have one sign, found {model.plant.k:g} in row {i + 1}")
@@ -104,8 +110,8 @@ class GainSchedule:
         one, other = (_with_times(self.rule(self.models[i])) for i in (row, row + 1))
         if type(one) is not type(other):
             raise InvalidParameter(
-                f"settings of one form can be interpolated only, found {type(one).__name__} in row {row + 1} and "
-                f"{type(other).__name__} in row {row + 2}: interpolate the model"
+                f"settings of one form can be interpolated only, found {FORM_OF[type(one)]} in row {row + 1} and "
+                f"{FORM_OF[type(other)]} in row {row + 2}: interpolate the model"
             )
 
         def middle(name: str) -> float:

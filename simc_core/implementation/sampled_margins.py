@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from simc_core import checks
-from simc_core.controllers.discrete import known_law, law_for
+from simc_core.controllers.discrete import known_law, law_for, scans
 from simc_core.errors import InvalidParameter, NotStable
 from simc_core.implementation.sampled_loop import MOST_PERIODS, SAME_INSTANT, SampledLoop
 from simc_core.loops.loop import Loop
@@ -74,7 +74,7 @@ def sampled_margins(loop: Loop, h: float, law: str = "backward", delay_scans: in
         raise InvalidParameter(f"loop must be a Loop, found {type(loop).__name__}: nested loops are not sampled")
     h = checks.positive_time("h", h)
     law_for(law, loop.controller.to_parallel(), h)
-    sampled = SampledLoop(loop, h, law, checks.whole("delay_scans", delay_scans, 0, 100))
+    sampled = SampledLoop(loop, h, law, scans("delay_scans", delay_scans))
     if loop.plant.theta > MOST_PERIODS * h:
         shortest = loop.plant.theta / MOST_PERIODS
         raise InvalidParameter(f"h must be >= theta/{MOST_PERIODS} = {shortest:g}, found {h:g}")
@@ -124,7 +124,7 @@ def longest_sampling_period(loop: Loop, law: str = "backward", delay_scans: int 
     >>> round(sampled_margins(loop, longest_sampling_period(loop)).Ms / margins(loop).Ms, 4)
     1.05
     """
-    more = checks.real("more", more, 1e-6, 10.0)
+    more, delay_scans = checks.real("more", more, 1e-6, 10.0), scans("delay_scans", delay_scans)
     continuous = margins(loop)
     if not continuous.stable:
         raise NotStable("the loop must be stable with a continuous controller, found one that is not")

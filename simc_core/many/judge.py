@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from simc_core.certificate.verdict import Stability, stability_many
 from simc_core.errors import SimcError
 from simc_core.loops.loop import Loop
 from simc_core.many.result import Judged, said
@@ -15,10 +16,10 @@ Performed = Performance | SimcError
 def judge(loops: Sequence[Loop]) -> list[Judged | Exception]:
     """Each loop judged; an exception in the place of one that cannot be."""
     found = _margins(loops)
-    stable = [i for i, each in enumerate(found) if isinstance(each, Margins) and each.stable]
-    performed = dict(zip(stable, _performance([loops[i] for i in stable]), strict=True))
+    stable = {i: each[1] for i, each in enumerate(found) if not isinstance(each, Exception) and each[0].stable}
+    performed = dict(zip(stable, _performance([loops[i] for i in stable], list(stable.values())), strict=True))
     return [
-        each if isinstance(each, Exception) else _judged(loop, each, performed.get(i))
+        each if isinstance(each, Exception) else _judged(loop, each[0], performed.get(i))
         for i, (loop, each) in enumerate(zip(loops, found, strict=True))
     ]
 
@@ -30,16 +31,19 @@ def _judged(loop: Loop, found: Margins, performed: Performed | Exception | None)
     return Judged(loop.controller, found, None, why_not)
 
 
-def _margins(loops: Sequence[Loop]) -> list[Margins | Exception]:
-    """Together; where one of them fails, one by one."""
+def _margins(loops: Sequence[Loop]) -> list[tuple[Margins, Stability] | Exception]:
+    """With the verdict; together, and where one of them fails one by one."""
     try:
-        return list(margins_many(loops))
+        verdicts = stability_many(loops)
+        return list(zip(margins_many(loops, verdicts), verdicts, strict=True))
     except Exception as error:
         return [error] if len(loops) == 1 else [_margins([loop])[0] for loop in loops]
 
 
-def _performance(loops: Sequence[Loop]) -> list[Performed | Exception]:
+def _performance(loops: Sequence[Loop], verdicts: Sequence[Stability]) -> list[Performed | Exception]:
     try:
-        return list(performance_many(loops))
+        return list(performance_many(loops, verdicts))
     except Exception as error:
-        return [error] if len(loops) == 1 else [_performance([loop])[0] for loop in loops]
+        if len(loops) == 1:
+            return [error]
+        return [_performance([loop], [verdict])[0] for loop, verdict in zip(loops, verdicts, strict=True)]

@@ -19,7 +19,7 @@ import numpy as np
 
 from simc_core.certificate.characteristic import shifted
 from simc_core.certificate.poles import dominant_poles
-from simc_core.certificate.verdict import count_unstable_many, stability
+from simc_core.certificate.verdict import Stability, count_unstable_many, stability
 from simc_core.errors import InvalidParameter, NotStable, SimcError
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
@@ -127,13 +127,17 @@ def step_quality(loop: Loop) -> Quality:
     return Quality(found.setpoint.quality, found.disturbance.quality)
 
 
-def performance_many(loops: Sequence[Loop]) -> list[Performance | SimcError]:
+def performance_many(
+    loops: Sequence[Loop], verdicts: Sequence[Stability] | None = None
+) -> list[Performance | SimcError]:
     """Performance of many stable loops, each with its own plant, worked on together where their structure is the same.
 
     Parameters
     ----------
     loops : sequence of Loop, n of them
         Known to be stable.
+    verdicts : sequence of Stability, n of them, optional
+        What `stability_many` says of `loops`, where that is known: it saves work.
 
     Returns
     -------
@@ -141,10 +145,12 @@ def performance_many(loops: Sequence[Loop]) -> list[Performance | SimcError]:
         In the order of `loops`; the error that `performance` raises in the place of a loop that has none.
     """
     found: dict[int, Performance | SimcError] = {}
+    decays = [0.0] * len(loops) if verdicts is None else [each.decay for each in verdicts]
     forms = [loop.controller.to_parallel() for loop in loops]
     for which, course in march_plants([loop.plant for loop in loops], forms):
-        some = [loops[i] for i in which]
-        found |= zip(which, [course] if isinstance(course, InvalidParameter) else _measured(some, course), strict=True)
+        some, known = [loops[i] for i in which], [decays[i] for i in which]
+        measured = [course] if isinstance(course, InvalidParameter) else _measured(some, course, known)
+        found |= zip(which, measured, strict=True)
     return [found[i] for i in range(len(loops))]
 
 
@@ -152,27 +158,28 @@ def _of_single(loop: Loop) -> Performance:
     verdict = stability(loop)
     if verdict.verdict != "stable":
         raise NotStable(f"step metrics exist for a stable loop only, found one that is {verdict.verdict}")
-    (found,) = _measured([loop], settled(loop))
+    (found,) = _measured([loop], settled(loop), [verdict.decay])
     if isinstance(found, SimcError):
         raise found
     return found
 
 
-def _measured(loops: Sequence[Loop], course: UnitResponses) -> list[Performance | SimcError]:
-    """The metrics of loops whose responses are known, or why there are none."""
+def _measured(loops: Sequence[Loop], course: UnitResponses, decays: Sequence[float]) -> list[Performance | SimcError]:
+    """The metrics of loops whose responses, and decay as far as certified, are known, or why there are none."""
     n, found = len(loops), metrics_of(both_steps(course))
     refusals = [_refusal(course, i) for i in range(n)]
     pairs = [(found[i], found[n + i]) for i in range(n)]
     tails = [[_Tail(each, course, source, i) for source, each in enumerate(pair)] for i, pair in enumerate(pairs)]
-    settled_ = [i for i in range(n) if refusals[i] is None]
-    rates = [max(tail.negligible_rate() for tail in tails[i]) for i in settled_]
-    known = dict(zip(settled_, _no_mode_is_slower([loops[i] for i in settled_], rates), strict=True))
+    rates = [max(one.negligible_rate(), other.negligible_rate()) for one, other in tails]
+    open_ = [i for i in range(n) if refusals[i] is None and decays[i] < rates[i]]
+    slower = zip(open_, _no_mode_is_slower([loops[i] for i in open_], [rates[i] for i in open_]), strict=True)
+    to_add = {i for i, none_is in slower if not none_is}
     result: list[Performance | SimcError] = []
     for i, refusal in enumerate(refusals):
         if refusal is not None:
             result.append(refusal)
             continue
-        poles = () if known[i] else dominant_poles(loops[i], most=1)
+        poles = dominant_poles(loops[i], most=1) if i in to_add else ()
         steps = [tail.added(poles[0].s) for tail in tails[i]] if poles else list(pairs[i])
         Later(quality_of, loops[i], [known_of(step) for step in steps]).attach(steps)
         result.append(Performance(*steps))

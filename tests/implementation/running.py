@@ -156,7 +156,9 @@ class Modelica(Variables):
         assert lines.pop(0) == "when sample(0.0, h) then"
         assert lines.pop() == "end when;"
         self.body = compile(as_python(lines, r"if (.*) then", r"end if;", r"else"), "pid.mo", "exec")
-        self.scope = {name: float(value) for name, value in re.findall(r"parameter Real (\w+) = (\S+?)[ ;]", head)}
+        self.scope = {
+            name: float(value) for name, value in re.findall(r"(?:parameter|input) Real (\w+) = (\S+?)[ ;]", head)
+        }
         self.scope |= dict.fromkeys(re.findall(r"discrete Real (\w+)\(", head), 0.0)
 
 

@@ -83,7 +83,7 @@ def test_in_manual_with_a_moving_measurement_and_feedforward_no_bump_either(lang
 
 
 @pytest.mark.parametrize("law", ["backward", "tustin"])
-@pytest.mark.parametrize("language", sorted(set(LANGUAGES) - {"modelica"}))
+@pytest.mark.parametrize("language", LANGUAGES)
 def test_gains_changed_on_line_make_no_jump(language, law, tmp_path):
     one, other = (running(PID, language, tmp_path, 0.2, law=law) for _ in range(2))
     for pid in (one, other):
@@ -281,3 +281,23 @@ def test_an_output_of_4_to_20_mA_starts_from_manual_without_a_bump(language, tmp
 @pytest.mark.parametrize(("language", "tool"), [("scl", "TIA Portal"), ("logix", "Studio 5000")])
 def test_what_nobody_compiled_says_so(language, tool):
     assert f"NOT COMPILED: no {tool} was at hand" in export(PID, language, 0.2)
+
+
+@pytest.mark.parametrize("limits", [{}, {"u_min": -0.8, "u_max": 1.3}])
+def test_an_output_written_one_scan_later_is_simulated_and_in_the_header(limits, tmp_path):
+    """u reaches the plant a period after it was computed; the program is the same, Ms 1.898 [a program of its own]."""
+    plant, controller, n = Plant(1, 1, (8,)), SeriesPid(4, 8), 200
+    pid = running(controller, "python", tmp_path, 0.2, plant=plant, **limits)
+    written = [0.0]
+
+    def step(r, y):
+        written.append(pid.step(r, y))
+        return written[-2]
+
+    y, u = driven(1, 1, (8,), 0.2, step, np.ones(n))
+    late = Actuation(h=0.2, delay_scans=1, **limits)
+    found = simulate(Loop(plant, controller), Scenario(1, 0, t=0.2 * np.arange(n), actuation=late))
+    assert y == pytest.approx(found.y, rel=0, abs=1e-12)
+    assert u == pytest.approx(found.u, rel=0, abs=1e-11)
+    text = export(controller, "c", 0.2, plant=plant, delay_scans=1)
+    assert "1.898 sampled, the output written 1 scan later" in text

@@ -137,7 +137,7 @@ def test_second_order_and_negative_gains():
             (1, 2),
             (MODELS[0], IntegratingDelay(1, 1)),
             {},
-            "of one kind, found FirstOrderDelay in row 1 and Integrating",
+            "of one kind, found a first-order one in row 1 and an integrating one in row 2",
         ),
         ((1, 2), (MODELS[0], FirstOrderDelay(-1, 1, 8)), {}, "gains must have one sign, found -1 in row 2"),
         ((1, 2), MODELS[:2], {"between": "Kc"}, "between must be one of model, PB, found 'Kc'"),
@@ -147,3 +147,12 @@ def test_second_order_and_negative_gains():
 def test_tables_that_make_no_schedule_are_refused(values, models, how, text):
     with pytest.raises(InvalidParameter, match=text):
         GainSchedule(values, models, **how)
+
+
+def test_settings_of_two_forms_are_not_interpolated():
+    """Whose rule gives an I controller where there is no lag."""
+    models = FirstOrderDelay(1, 1, 0), FirstOrderDelay(1, 1, 8)
+    with pytest.raises(
+        InvalidParameter, match="found pure integral action in row 1 and the series form in row 2: inter"
+    ):
+        GainSchedule((0, 1), models, between="PB").settings(0.5)

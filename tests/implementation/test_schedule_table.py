@@ -73,16 +73,20 @@ def in_octave(table, folder):
     return gains
 
 
-def in_structured_text(table):
-    text = re.sub(r"\(\*.*?\*\)", "", export_schedule(table, "st"), flags=re.DOTALL)
-    head, body = text.rsplit("END_VAR", 1)
-    arrays = {
-        name: eval(values) for name, values in re.findall(r"(\w+) : ARRAY\[0\.\.\d+\] OF LREAL := (\[.*?\]);", head)
-    }
-    lines = [line for line in body.replace("END_FUNCTION_BLOCK", "").splitlines() if line.strip()]
-    code = "\n".join(lines).replace(":=", "=").replace(";", "").replace("END_WHILE", "").replace("AND", "and")
-    code = re.sub(r"WHILE (.*) DO", r"while \1:", code)
-    scope = {**arrays, "MIN": min, "LIMIT": lambda low, value, high: min(max(value, low), high)}
+def run_text(body, scope):
+    """Gains from a body whose blocks are made of IF, WHILE and assignments, in whatever dialect."""
+    depth, lines = 0, []
+    for line in body.splitlines():
+        line = line.strip().rstrip(";")
+        if line.lower() in ("end_if", "end_while", "end while"):
+            depth -= 1
+            continue
+        begins = re.fullmatch(r"(?i)(if|while) (.*) (then|do|loop)", line)
+        text = f"{begins[1].lower()} {begins[2]}:" if begins else line.replace(":=", "=")
+        lines.append(" " * depth + text.replace("AND", "and").replace("NOT", "not"))
+        depth += bool(begins)
+    assert depth == 0
+    code = "\n".join(line for line in lines if line.strip())
 
     def gains(x):
         scope["x"] = x
@@ -92,7 +96,52 @@ def in_structured_text(table):
     return gains
 
 
-@pytest.mark.parametrize("language", ["python", "c", "matlab", "st"])
+def limited(low, value, high):
+    return min(max(value, low), high)
+
+
+def in_structured_text(table):
+    return of_block(export_schedule(table, "st"))
+
+
+def of_block(text):
+    text = re.sub(r"\(\*.*?\*\)", "", text, flags=re.DOTALL)
+    head, body = text.rsplit("END_VAR", 1)
+    arrays = re.findall(r"(\w+) : ARRAY\[0\.\.\d+\] OF LREAL := (\[.*?\]);", head, flags=re.IGNORECASE)
+    scope = {name: eval(values) for name, values in arrays}
+    return run_text(body.replace("END_FUNCTION_BLOCK", ""), {**scope, "LIMIT": limited})
+
+
+def in_scl(table):
+    """Its dialect read as Structured Text."""
+    text = export_schedule(table, "scl")
+    assert text.count("BEGIN") == 1
+    assert set(re.findall(r"#(\w+)", text)) == set(re.findall(r"^    (\w+) :", text, flags=re.MULTILINE))
+    return of_block(re.sub(r"(MN|IN|MX) := ", "", text.replace("BEGIN", "").replace("#", "")))
+
+
+def in_logix(table):
+    """A routine; its tags are named in the comment."""
+    comment, body = re.fullmatch(r"\(\*(.*?)\*\)(.*)", export_schedule(table, "logix"), re.DOTALL).groups()
+    arrays = re.search(r"REAL\[3\] tags: (.*)\.", comment)[1].split(", ")
+    reals = re.search(r"REAL tags: (.*)\.", comment)[1].split(", ")
+    scope = {name: [0.0] * 3 for name in arrays} | dict.fromkeys([*reals, "i", "tabled"], 0)
+    assert set(re.findall(r"[a-zA-Z]\w*", body)) - {"IF", "NOT", "THEN", "WHILE", "AND", "DO"} <= set(scope) | {
+        "END_IF",
+        "END_WHILE",
+    }
+    return run_text(body, scope)
+
+
+def in_modelica(table):
+    """Arrays begin with 1 there."""
+    head, body = export_schedule(table, "modelica").split("algorithm")
+    arrays = re.findall(r"parameter Real (\w+)\[3\] = \{(.*?)\};", head)
+    scope = {name: [None, *map(float, values.split(", "))] for name, values in arrays}
+    return run_text(body.replace("end SimcSchedule;", ""), scope)
+
+
+@pytest.mark.parametrize("language", ["python", "c", "matlab", "st", "scl", "logix", "modelica"])
 def test_every_language_has_the_gains_of_the_table(language, tmp_path):
     table = ScheduleTable(GainSchedule(*ROWS, between="PB"))
     gains = {
@@ -100,6 +149,9 @@ def test_every_language_has_the_gains_of_the_table(language, tmp_path):
         "c": lambda: in_c(table, tmp_path),
         "matlab": lambda: in_octave(table, tmp_path),
         "st": lambda: in_structured_text(table),
+        "scl": lambda: in_scl(table),
+        "logix": lambda: in_logix(table),
+        "modelica": lambda: in_modelica(table),
     }[language]()
     for x in AT:
         assert gains(x) == pytest.approx(by_hand(x), rel=1e-12)
@@ -147,8 +199,8 @@ def test_the_header_tells_the_worst_peak_and_the_filter():
     ("make", "text"),
     [
         (
-            lambda: export_schedule(ScheduleTable(GainSchedule(*ROWS)), "modelica"),
-            "language must be one of python, c, st",
+            lambda: export_schedule(ScheduleTable(GainSchedule(*ROWS)), "python-control"),
+            "language must be one of python, c, arduino, st",
         ),
         (lambda: export_schedule(ScheduleTable(GainSchedule(*ROWS)), "c", unit="h"), "unit must be s or min"),
         (lambda: ScheduleTable(GainSchedule(*ROWS), 0), "parts must be >= 1"),

@@ -107,6 +107,7 @@ actuators = st.builds(
     backlash=st.just(0.0) | times,
     rate_limit=st.none() | times,
     h=st.just(0.0) | times,
+    delay_scans=st.sampled_from([0, 1]),
 )
 homes = st.builds(
     Home,
@@ -114,7 +115,6 @@ homes = st.builds(
     language=st.sampled_from(sorted(LANGUAGES)),
     exported=st.sampled_from(EXPORTED),
     between=st.sampled_from(["model", "PB"]),
-    scans=st.sampled_from([0, 1]),
     points=st.just(())
     | st.lists(st.tuples(gains, times, times), min_size=2, max_size=5).map(
         lambda rows: tuple((float(x), *row) for x, row in enumerate(rows))

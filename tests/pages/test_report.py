@@ -111,6 +111,32 @@ def test_the_picture_holds_plant_settings_and_both_figures():
     assert {"t [s]", "y [°C]", "u [%]", "as built", "now"} <= set(texts_)
 
 
+@pytest.mark.parametrize("sampling", [{}, {"sampling": "0.2"}])
+def test_a_box_that_kicks_without_a_filter_has_all_but_that_response(sampling):
+    """OSCAT: D on e, no filter; Ms of the unfiltered design is 1.6089 [measured apart], sampled the kick is finite."""
+    _, found = made(plant=P0["plant"], order="2", unit="s", box="oscat_ctrl_pid", **sampling)
+    assert found.margins["as typed"].Ms == pytest.approx(1.6089, abs=5e-4)
+    assert [row.name for row in found.typed][:3] == ["KP", "TN", "TV"]
+    told = any("a set-point step makes u infinite" in text for text in found.watch)
+    assert told == (not sampling)
+    assert list(found.curves) == (["as built", "design"] if sampling else ["design"])
+    assert "<svg" in picture(found)
+
+
+def test_a_box_that_does_not_take_the_design_costs_the_box_alone():
+    _, found = made(plant=P0["plant"], order="2", unit="min", box="abb_acs880")
+    assert found.typed == ()
+    assert "derivation time of ACS880, ACQ580 process PID must be from 0 to 10 s, found 130.909" in found.watch[0]
+    assert list(found.curves) == ["design"]
+
+
+def test_settings_now_that_kick_have_their_margins():
+    _, found = made(**P0, now="ideal~6~11~2~0~1~1")
+    assert "now" in found.margins
+    assert "now" not in found.curves
+    assert any("The response now is not drawn" in text for text in found.watch)
+
+
 def test_curves_as_csv_hold_every_point():
     _, found = made(**FULL)
     head, *rows = csv.reader(io.StringIO(curves_csv(found)))

@@ -79,7 +79,7 @@ def test_one_of_the_usual_plants_is_compared_and_named():
 
 def test_a_rule_of_a_link_is_drawn_with_a_word_on_it():
     app = rules(compared_kind="PID", compared_rule="zn_step-PID")
-    assert "**Ziegler-Nichols, step, PID**, ZN42" in texts(app)
+    assert "**Ziegler-Nichols, step, PID**, \\[[ZN42](sources?source=ZN42 " in texts(app)
     assert "raises $K_c$ by 1.25" in texts(app)
     trade_off, y, _ = specs(app)
     assert {trace["name"] for trace in y["data"]} >= {"Ziegler-Nichols, step, PID", "my design", "r"}

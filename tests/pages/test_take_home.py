@@ -281,3 +281,24 @@ def test_an_output_written_one_scan_later_costs_a_period_of_dead_time():
     assert address(app)["scans"] == "1"
     figure = json.loads(app.get("plotly_chart")[0].proto.spec)
     assert {"design", "typed", "sampled"} <= {trace["name"] for trace in figure["data"]}
+
+
+def test_a_box_that_kicks_without_a_filter_shows_all_but_that_response():
+    """OSCAT has D on e and no filter; Ms of the unfiltered design is 1.6089 [a program of its own]."""
+    app = run_page("take_home", plant="exp(-s)/((10s+1)(3s+1))", order="2", unit="s", box="oscat_ctrl_pid")
+    assert Ms_of(app, "as typed") == pytest.approx(1.6089, abs=5e-4)
+    assert any("set-point step makes" in each.value for each in app.caption)
+    figure = json.loads(app.get("plotly_chart")[0].proto.spec)
+    assert {trace["name"] for trace in figure["data"]} & {"design", "typed"} == {"design"}
+
+
+def test_what_is_read_from_a_box_that_kicks_is_taken_without_the_kick():
+    """PB 20, RSET 0.5, RATE 0.2 of a UDC in PID-A: Kc 5, tau_I 30 s, tau_D 12 s, D on the error."""
+    app = run_page("take_home", **P0, box="honeywell_udc")
+    for i, text in enumerate(("20", "0.5", "0.2")):
+        app.text_input(key=f"box_honeywell_udc_{i}").set_value(text).run()
+    app.button(key="from_box").click().run()
+    own = address(app)["own"].split("~")
+    assert (own[0], *map(float, own[1:4]), own[-1]) == ("ideal", 5, 30, 12, "0")
+    assert any("the derivative on PV" in each.value for each in app.info)
+    assert not app.error

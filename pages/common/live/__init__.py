@@ -7,6 +7,7 @@ cache. uPlot draws (uplot.LICENSE); measured against plotly.js and a canvas of o
 """
 
 from pages.common.live.cascade.instrument import cascade_instrument
+from pages.common.live.components import staged
 from pages.common.live.hand.instrument import hand_instrument, put_back
 from pages.common.live.plane.instrument import Ground, plane_instrument
 from pages.common.live.tuning.instrument import as_choice, tuning_instrument
@@ -18,5 +19,6 @@ __all__ = [
     "hand_instrument",
     "plane_instrument",
     "put_back",
+    "staged",
     "tuning_instrument",
 ]

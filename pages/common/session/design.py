@@ -8,9 +8,9 @@ from fractions import Fraction
 
 from pages.common.session.compared import PRESENT, Compared
 from pages.common.session.home import Home
-from pages.common.session.record import Chosen, Origin
+from pages.common.session.record import MOST_STRUCTURES, Chosen, Origin
 from pages.common.session.sheet import Sheet, one_of, ratio
-from simc_core import BOXES, Actuation, Plant, Scenario, checks
+from simc_core import BOXES, Actuation, Plant, Scenario, Uncertainty, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
@@ -76,7 +76,7 @@ class Tuning:
 
 
 ACTUATION = tuple(each.name for each in fields(Actuation))
-IN_LINKS = {"tracking_time": "T_t", "h": "sampling"}  # h alone is taken, by Tuning
+IN_LINKS = {"tracking_time": "T_t", "h": "sampling", "delay_scans": "scans"}  # h alone is taken, by Tuning
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +143,7 @@ class Actuator:
     """How the loop is built: the fields of Actuation, None for no limit.
 
     tracking_time: None for the default.   h: sampling period, 0 if continuous.   law: of the sampled controller.
+    delay_scans: after which its output is written, 0 or 1.
     resolution, dead_band, backlash: of the actuator, 0 for none.   rate_limit: None for none.
     """
 
@@ -153,6 +154,7 @@ class Actuator:
     seed: int = 0
     h: float = 0.0
     law: str = "backward"
+    delay_scans: int = 0
     resolution: float = 0.0
     dead_band: float = 0.0
     backlash: float = 0.0
@@ -165,8 +167,9 @@ class Actuator:
                 put(self, name, checks.gain(name, getattr(self, name)))
         if self.tracking_time is not None:
             put(self, "tracking_time", checks.positive_time("tracking_time", self.tracking_time))
+        checks.whole("scans", self.delay_scans, 0, 1)
         scenario = self.scenario()  # which checks what it is made of
-        for name in ("noise", "seed", "h", "resolution", "dead_band", "backlash"):
+        for name in ("noise", "seed", "h", "delay_scans", "resolution", "dead_band", "backlash"):
             put(self, name, getattr(scenario.actuation, name))
 
     def scenario(self, excitation: Excitation = Excitation()) -> Scenario:
@@ -237,6 +240,7 @@ class Design:
     box: what the settings are typed into, a key of BOXES, "" where not told.   home: how they are taken there.
     record: what is chosen of the record on the page From data.
     origin: of a plant that was identified; None for one that came otherwise, or has changed since.
+    uncertainty: what its record leaves open, the model's own structure first; empty without an origin.
     compared: what the page of rules compares.
     """
 
@@ -255,6 +259,7 @@ class Design:
     box: str = ""
     record: Chosen = field(default_factory=Chosen)
     origin: Origin | None = None
+    uncertainty: tuple[Uncertainty, ...] = ()
     compared: Compared = field(default_factory=Compared)
     home: Home = field(default_factory=Home)
 
@@ -268,6 +273,8 @@ class Design:
         object.__setattr__(self, "facts", of_plant(self.facts, self.plant))
         if self.origin is not None and self.origin.plant != self.plant:
             object.__setattr__(self, "origin", None)
+        known = checks.items("uncertainty", self.uncertainty, MOST_STRUCTURES)
+        object.__setattr__(self, "uncertainty", known if self.origin is not None else ())
         if self.tuning.h not in (0.0, self.actuator.h):  # there is one sampling period
             if self.actuator.h:
                 object.__setattr__(self, "tuning", replace(self.tuning, h=self.actuator.h))
@@ -277,7 +284,7 @@ class Design:
 
 # Where the field of each name lies, "" for the design itself. Links and widgets know fields by these names.
 PLACES: dict[str, tuple[str, str]] = {
-    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box", "origin")},
+    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box", "origin", "uncertainty")},
     "controller": ("", "source"),
     **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed", "tau_F", "rule")},
     **{name: ("sheet", name) for name in ("tag", "note")},
@@ -297,7 +304,7 @@ PLACES: dict[str, tuple[str, str]] = {
     "filter_outer": ("cascade", "filter_outer"),
     **{IN_LINKS.get(name, name): ("actuator", name) for name in ACTUATION},
     **{name: ("record", name) for name in ("example", "structure", "begin", "end", "bad")},
-    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between", "scans")},
+    **{name: ("home", name) for name in ("rounding", "language", "exported", "points", "between")},
     "r": ("excitation", "setpoint"),
     "d": ("excitation", "disturbance"),
     "d_time": ("excitation", "load_time"),
@@ -356,6 +363,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
         plant=plant,
         facts=facts,
         origin=None if design.origin is None else design.origin.rescaled(plant, time),
+        uncertainty=tuple(each.rescaled(time) for each in design.uncertainty),
         tuning=_in_time(design.tuning, time),
         own=None if design.own is None else design.own.rescaled(time),
         now=None if design.now is None else design.now.rescaled(time),

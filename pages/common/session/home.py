@@ -21,7 +21,7 @@ Point = tuple[float, ...]
 class Home:
     """rounding: of what is typed into a box, to its safe side, or none.   language: of the exported controller.
 
-    exported: whether that is the design, or what is typed into the box.   scans: after which the output is written.
+    exported: whether that is the design, or what is typed into the box.
     points: of a gain schedule: scheduling value, k, theta, and tau1, tau2 where the model has them; none without one.
     between: what is interpolated between them.
     """
@@ -31,14 +31,12 @@ class Home:
     exported: str = "design"
     points: tuple[Point, ...] = ()
     between: str = "model"
-    scans: int = 0
 
     def __post_init__(self):
         one_of("rounding", self.rounding, ROUNDINGS)
         one_of("language", self.language, LANGUAGES)
         one_of("exported", self.exported, EXPORTED)
         one_of("between", self.between, BETWEEN)
-        object.__setattr__(self, "scans", checks.whole("scans", self.scans, 0, 1))
         rows = checks.items("points", self.points, MOST_POINTS)
         object.__setattr__(self, "points", tuple(_point(i, row) for i, row in enumerate(rows, start=1)))
         if rows:

@@ -47,7 +47,7 @@ def _choose(design: Design) -> None:
 
 def _period(design: Design, present: Study) -> None:
     """Without a sampling period there is no code; one that costs little is offered."""
-    period = longest_period(present.loop, design.actuator.law, design.home.scans)
+    period = longest_period(present.loop, design.actuator.law, design.actuator.delay_scans)
     if not math.isfinite(period):
         st.info("A program acts every so often: type the sampling period of yours.")
         return

@@ -2,14 +2,12 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
-
-import numpy as np
 
 from pages.common.parts.units import with_plain_unit
 from pages.common.session.design import Design
 from simc_core import Actuation, Loop, TimeResponse, longest_sampling_period, sampled_margins, simulate
+from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
 from simc_core.notation import number, rounded_down
 from simc_core.sensitivity.margins_of_response import Margins
@@ -28,21 +26,45 @@ def sampled(loop: Loop, design: Design) -> tuple[str, Margins]:
     """Title and margins with the sampling period of the design. Raises SimcError where its law does not exist."""
     h = design.actuator.h
     title = f"sampled every {number(h)} {design.sheet.time_unit}".rstrip()
-    return title, sampled_margins(loop, h, design.actuator.law, design.home.scans)
+    return title, sampled_margins(loop, h, design.actuator.law, design.actuator.delay_scans)
 
 
 def sampled_response(first: Loop, loop: Loop, design: Design, built: Actuation | None = None) -> TimeResponse:
-    """y and u with the sampling period, over the horizon of the loop `first`; built: with more than that.
-
-    An output that is written one scan later acts on the plant as one more period of dead time of u.
-    """
+    """y and u with the sampling period, over the horizon of the loop `first`; built: with more than that."""
     begins, t_end = times(first, design.excitation.scenario())
-    late = design.actuator.h * design.home.scans
-    actuation = built or Actuation(h=design.actuator.h, law=design.actuator.law)
-    behind = replace(loop, plant=replace(loop.plant, theta=loop.plant.theta + late))
-    asked = design.excitation.scenario(disturbance_time=max(begins - late, 0.0), t_end=t_end, actuation=actuation)
-    found = simulate(behind, asked)
-    return replace(found, d=np.where(found.t >= begins, found.d, 0.0)) if late else found
+    actuator = design.actuator
+    actuation = built or Actuation(h=actuator.h, law=actuator.law, delay_scans=actuator.delay_scans)
+    return simulate(loop, design.excitation.scenario(disturbance_time=begins, t_end=t_end, actuation=actuation))
+
+
+def responses(first: Loop, loops: Mapping[str, Loop], design: Design) -> tuple[dict[str, TimeResponse], list[str]]:
+    """y and u of each loop over the horizon of `first`, by name; and why some are not there."""
+    begins, t_end = times(first, design.excitation.scenario())
+    asked = design.excitation.scenario(disturbance_time=begins, t_end=t_end)
+    found, why = {}, []
+    for name, loop in loops.items():
+        try:
+            found[name] = simulate(loop, asked)
+        except SimcError as error:
+            why.append(not_drawn(name, loop, error))
+    return found, why
+
+
+def not_drawn(name: str, loop: Loop, error: SimcError) -> str:
+    """Why a response is missing, in words."""
+    if kicks(loop.controller):
+        return (
+            f"The response {name} is not drawn: its derivative acts on the set point without a filter, so a set-point "
+            "step makes u infinite. Its margins and its load response are those of a derivative on PV. With the "
+            "sampling period of the box it is drawn as the box does it."
+        )
+    return f"The response {name} is not drawn: {error}"
+
+
+def kicks(controller: Controller) -> bool:
+    """Whether a set-point step makes u infinite."""
+    form = controller.to_parallel()
+    return bool(form.Kd and form.c and not form.tau_F)
 
 
 @lru_cache(maxsize=16)  # a fifth of a second, asked for by warnings, remedies and reports

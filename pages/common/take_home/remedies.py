@@ -6,7 +6,7 @@ from typing import Any
 
 from pages.common.parts.units import time_text
 from pages.common.session.design import Design, put
-from pages.common.studies.single import Study, present_study, study_of_settings
+from pages.common.studies.single import Study, judged_settings, present_study
 from pages.common.take_home.proof import longest_period, sampled
 from pages.common.take_home.typed import typed_into
 from simc_core import Loop, Typed
@@ -67,7 +67,7 @@ def _faster(design: Design, found: Typed) -> Iterator[tuple[str, dict[str, Any]]
     """The longest sampling period that costs 5 % of Ms."""
     h = design.actuator.h
     loop = Loop(design.plant, found.effective)
-    longest = longest_period(loop, design.actuator.law, design.home.scans) if h else h
+    longest = longest_period(loop, design.actuator.law, design.actuator.delay_scans) if h else h
     if 0 < longest < h:
         yield f"Sample every {time_text(longest, design.sheet)}", {"sampling": longest}
 
@@ -82,5 +82,5 @@ def _after(design: Design, change: dict[str, Any]) -> float:
 
 def _Ms(design: Design, found: Typed) -> float:
     """As typed and, with a sampling period, sampled."""
-    study = study_of_settings(design.plant, found.effective)
+    study = judged_settings(design.plant, found.effective)
     return sampled(study.loop, design)[1].Ms if design.actuator.h else study.margins.Ms

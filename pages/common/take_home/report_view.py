@@ -7,6 +7,7 @@ import streamlit as st
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.studies.single import Study
+from pages.common.take_home.as_png import as_png
 from pages.common.take_home.report.html import STYLE, body, document, picture
 from pages.common.take_home.report.record import report
 from pages.common.take_home.report.texts import curves_csv, markdown, settings_csv
@@ -21,11 +22,13 @@ FILES = (  # label, ending, kind, from the record
 
 
 def report_view(design: Design, present: Study) -> None:
-    """Raises SimcError where there is no report."""
+    """What there is to tell, whatever the box makes of the design."""
     found = report(design, present, state.address())
     name = "".join(c if c.isalnum() else "_" for c in design.sheet.tag) or "loop"
     with st.container(horizontal=True, gap="small"):
         for label, ending, kind, make in FILES:
             st.download_button(label, partial(make, found), f"{name}.{ending}", kind, key=f"report_{ending}")
+            if make is picture:
+                as_png(picture(found), f"{name}.png", "report_png")
     st.caption("A PDF is made by the print command of the browser, from the HTML file.")
     st.html(f"<style>{STYLE}</style>{body(found)}")

@@ -1,5 +1,6 @@
 """Settings in the box: what is typed, what that makes, and what it does to the loop; and the way back."""
 
+from dataclasses import replace
 from html import escape
 
 import streamlit as st
@@ -12,8 +13,8 @@ from pages.common.parts.units import time_text
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
-from pages.common.studies.single import Study, study_of_settings, time_responses
-from pages.common.take_home.proof import longest_period, sampled, sampled_response, table
+from pages.common.studies.single import Study, judged_settings
+from pages.common.take_home.proof import kicks, longest_period, responses, sampled, sampled_response, table
 from pages.common.take_home.remedies import remedies
 from pages.common.take_home.typed import as_text, assumed, read_from, rows, typed_into
 from simc_core import BOXES, Typed
@@ -25,6 +26,10 @@ from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import TimeResponse
 
 HEIGHT = 260  # px
+WITHOUT_KICK = (
+    "These settings differentiate the set point without a filter, which makes u infinite at a step. They were taken "
+    "with c = 0, the derivative on PV: the same margins and the same load response."
+)
 LAWS = {"backward": "backward", "tustin": "Tustin"}
 
 
@@ -60,7 +65,7 @@ def choose(design: Design) -> None:
             key="law",
             on_change=lambda: state.overtaken("law") or state.change(law=state.widget("law")),
         )
-        state.set_widget("scans", bool(design.home.scans))
+        state.set_widget("scans", bool(design.actuator.delay_scans))
         st.toggle(
             "Output written one scan later",
             key="scans",
@@ -87,7 +92,7 @@ def refused(design: Design, present: Study, error: BoxError) -> None:
     st.error(f"**This box does not take the design.** {sentence(str(error))}")
     try:
         found = typed_into(design.box, present.controller, design.sheet, design.home.rounding == "safe", nearest=True)
-        typed = study_of_settings(design.plant, found.effective)
+        typed = judged_settings(design.plant, found.effective)
     except SimcError:  # the box has no form of it at all
         return
     with st.container(border=True):
@@ -98,7 +103,7 @@ def refused(design: Design, present: Study, error: BoxError) -> None:
 
 def proof(design: Design, present: Study, found: Typed) -> None:
     """Design, typed and sampled side by side: margins and responses."""
-    typed = study_of_settings(design.plant, found.effective)
+    typed = judged_settings(design.plant, found.effective)
     columns = {"design": present.margins, "as typed": typed.margins}
     if design.actuator.h:
         columns |= _sampled(typed, design)
@@ -106,16 +111,18 @@ def proof(design: Design, present: Study, found: Typed) -> None:
     if design.actuator.h and typed.stable:
         _sampling(typed, design)
     _remedies(design, present, found)
-    studies = [present, typed]
-    times = list(zip(("design", "typed"), time_responses(studies, design.excitation), strict=True))
+    drawn, why = responses(present.loop, {"design": present.loop, "typed": typed.loop}, design)
     if design.actuator.h and len(columns) == 3:
-        times += _sampled_response(present, typed, design)
+        drawn |= _sampled_response(present, typed, design)
+    times = list(drawn.items())
     field(
         (
             Panel("typed_y", "y", "Output y of the design and as typed", output_figure(times, HEIGHT, present.stable)),
             Panel("typed_u", "u", "Input u of the design and as typed", input_figure(times, HEIGHT, present.stable)),
         )
     )
+    for text in why:
+        st.caption(sentence(text))
 
 
 def notes(design: Design, found: Typed) -> None:
@@ -159,24 +166,27 @@ def in_the_box_now(design: Design) -> None:
         st.button("Use as my settings", key="from_box", on_click=_take, args=(box.key, given, action, design.sheet))
         why = state.memory(f"box_{box.key}_refused", str)
         if why:
-            st.error(sentence(why))
+            (st.info if why == WITHOUT_KICK else st.error)(sentence(why))
 
 
 def _take(key: str, given: dict[str, float | str], action: str, sheet: Sheet) -> None:
     why = ""
     try:
-        state.change(own=read_from(key, given, action, sheet), controller="own")
+        found = read_from(key, given, action, sheet)
+        if kicks(found):  # which no page could draw
+            found, why = replace(found, c=0.0), WITHOUT_KICK
+        state.change(own=found, controller="own")
     except SimcError as error:
         why = str(error)
     state.remember(f"box_{key}_refused", why)
 
 
-def _sampled_response(present: Study, typed: Study, design: Design) -> list[tuple[str, TimeResponse]]:
+def _sampled_response(present: Study, typed: Study, design: Design) -> dict[str, TimeResponse]:
     """The loop as typed with the sampling period; none where that takes too many steps."""
     try:
-        return [("sampled", sampled_response(present.loop, typed.loop, design))]
+        return {"sampled": sampled_response(present.loop, typed.loop, design)}
     except SimcError:
-        return []
+        return {}
 
 
 def _remedies(design: Design, present: Study, found: Typed) -> None:
@@ -201,7 +211,7 @@ def _sampled(typed: Study, design: Design) -> dict[str, Margins]:
 
 def _sampling(typed: Study, design: Design) -> None:
     """Where sampling costs more than it should, up to which period it does not."""
-    longest = longest_period(typed.loop, design.actuator.law, design.home.scans)
+    longest = longest_period(typed.loop, design.actuator.law, design.actuator.delay_scans)
     if design.actuator.h > longest:
         period = time_text(longest, design.sheet)
         st.warning(f"Sampling is slow for this loop: take {period} or less, and $M_s$ rises by 5 % at most.")

@@ -59,6 +59,7 @@ def written(design: Design, controller: Controller, made_from: Controller) -> st
         date=date.today().isoformat(),
         design=made_from.rescaled(seconds),
         about=about(design.sheet),
+        delay_scans=design.actuator.delay_scans,
     )
 
 

@@ -15,7 +15,8 @@ from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from pages.common.tuning.guards import proposal
-from simc_core.errors import InvalidParameter
+from simc_core import Actuation, sampled_margins
+from simc_core.errors import InvalidParameter, SimcError
 from simc_core.figures import built_input_figure, built_output_figure
 from simc_core.notation import number
 from simc_core.studies.built_advice import error_integral, out_of_reach, protections_compared, sampling_not_in_tuning
@@ -64,7 +65,8 @@ def words(design: Design) -> str:
     if actuator.noise:
         found.append(f"measurement noise {number(actuator.noise)}")
     if actuator.h:
-        found.append(f"sampled every {time_text(actuator.h, sheet)}")
+        late = ", its output written one scan later" if actuator.delay_scans else ""
+        found.append(f"sampled every {time_text(actuator.h, sheet)}{late}")
     return ", ".join(found)
 
 
@@ -78,7 +80,7 @@ def actuator_view(study: Study, design: Design) -> None:
     with explain_refusal():
         with st.spinner("Simulating the loop as built"):
             found = as_built(study.loop, design.actuator.scenario(design.excitation))
-        st.html(numbers_html(found, design.sheet))
+        st.html(numbers_html(found, study, design.sheet))
         if found.numbers is not None and found.numbers.cycle:
             st.info(cycle_in_words(found.numbers.cycle, design.sheet))
         left, right = st.columns(2, gap="small")
@@ -182,7 +184,7 @@ def _range_of_OP(design: Design) -> None:
         )
 
 
-def numbers_html(found: AsBuilt, sheet: Sheet) -> str:
+def numbers_html(found: AsBuilt, study: Study, sheet: Sheet) -> str:
     """The strip of numbers; without them where the linear loop is not stable."""
     if found.numbers is None:
         return (
@@ -191,12 +193,12 @@ def numbers_html(found: AsBuilt, sheet: Sheet) -> str:
         )
     cells = "".join(
         f'<div title="{escape(hover)}"><small>{escape(label)}</small><b>{text}</b></div>'
-        for label, text, hover in cells_of(found, found.numbers, sheet)
+        for label, text, hover in cells_of(found, found.numbers, study, sheet)
     )
     return f'<div class="strip built" role="status" aria-label="Numbers of the loop as built">{cells}</div>'
 
 
-def cells_of(found: AsBuilt, numbers: BuiltNumbers, sheet: Sheet) -> list[tuple[str, str, str]]:
+def cells_of(found: AsBuilt, numbers: BuiltNumbers, study: Study, sheet: Sheet) -> list[tuple[str, str, str]]:
     """label, text, and what it means."""
     cells = [("IAE: as built · linear", _pair(numbers.IAE, numbers.IAE_linear), "∫|r − y| over the time shown")]
     if found.actuation.limited or found.actuation.mechanical:
@@ -221,7 +223,22 @@ def cells_of(found: AsBuilt, numbers: BuiltNumbers, sheet: Sheet) -> list[tuple[
         )
     if found.actuation.h:
         cells.append(("Largest move of u", number(numbers.largest_move, DIGITS), "from one sample to the next"))
+        cells += _sampled(study, found.actuation)
     return cells
+
+
+def _sampled(study: Study, actuation: Actuation) -> list[tuple[str, str, str]]:
+    """Ms and the phase margin beside those of the linear loop; nothing where the law does not exist."""
+    try:
+        sampled = sampled_margins(study.loop, actuation.h, actuation.law, actuation.delay_scans)
+    except SimcError:
+        return []
+    if not sampled.stable:
+        return [("Ms: sampled · linear", f"not stable · {number(study.margins.Ms, DIGITS)}", "")]
+    return [
+        ("Ms: sampled · linear", _pair(sampled.Ms, study.margins.Ms), "largest |S|, exact for the sampled controller"),
+        ("PM [°]: sampled · linear", _pair(sampled.PM_deg, study.margins.PM_deg), "phase margin"),
+    ]
 
 
 def explained(found: AsBuilt, study: Study, design: Design) -> str:

@@ -44,6 +44,7 @@ def export(
     single: bool = False,
     design: Controller | None = None,
     about: str = "",
+    delay_scans: int = 0,
 ) -> str:
     """The sampled controller as source text; it does what `simulate` does with the same h and law.
 
@@ -74,6 +75,8 @@ def export(
         What `controller` was made from, where that is read back from a box: the header tells both.
     about : str
         A line for the header: the tag of the loop, the units of PV and output.
+    delay_scans : int
+        Sampling periods after which the output reaches the plant, for Ms in the header; the program itself is the same.
 
     Returns
     -------
@@ -97,5 +100,5 @@ def export(
     if language not in LANGUAGES:
         raise InvalidParameter(f"language must be one of {', '.join(LANGUAGES)}, found {language!r}")
     return LANGUAGES[language](
-        program(controller, h, law, u_min, u_max, tracking_time, plant, unit, date, single, design, about)
+        program(controller, h, law, u_min, u_max, tracking_time, plant, unit, date, single, design, about, delay_scans)
     )

@@ -3,11 +3,20 @@
 import numpy as np
 
 from simc_core.algebra.state_space import chain
-from simc_core.implementation.exports.program import MANUAL, MEANING, SETTINGS, STATE, Program, written
+from simc_core.implementation.exports.program import (
+    CHANGEABLE,
+    GAINS,
+    MANUAL,
+    MEANING,
+    SETTINGS,
+    STATE,
+    Program,
+    written,
+)
 from simc_core.plants.plant import Plant
 
 FORM = "{name} := {value};"
-HELD = tuple(name for name in STATE if name not in ("Kp_before", "u"))  # gains are parameters here
+HELD = tuple(name for name in STATE if name != "u")
 
 
 def modelica(program: Program) -> str:
@@ -15,13 +24,14 @@ def modelica(program: Program) -> str:
     lines = [f"// {line}" for line in program.header]
     lines += ["block SimcPid"]
     lines += [
-        f"  parameter Real {name} = {program.values[name]!r}" + (f' "{MEANING[name]}";' if MEANING[name] else ";")
+        f"  {'input' if name in CHANGEABLE else 'parameter'} Real {name} = {program.values[name]!r}"
+        + (f' "{MEANING[name]}";' if MEANING[name] else ";")
         for name in SETTINGS
     ]
     lines += ["  input Real r;", "  input Real y;", "  input Real u_manual = 0.0;", "  input Real u_ff = 0.0;"]
-    lines += ["  input Boolean manual = false;", "  output discrete Real u(start = 0.0, fixed = true);", "protected"]
+    lines += ["  input Boolean manual = false;", "  discrete output Real u(start = 0.0, fixed = true);", "protected"]
     lines += [f"  discrete Real {name}(start = 0.0, fixed = true);" for name in (*HELD, *program.local)]
-    lines += ["algorithm", "  when sample(0.0, h) then", *written(program.filters, FORM, {}, " " * 4)]
+    lines += ["algorithm", "  when sample(0.0, h) then", *written((*GAINS, *program.filters), FORM, {}, " " * 4)]
     lines += ["    if manual then", "      u := min(max(u_manual, u_min), u_max);", *written(MANUAL, FORM, {}, " " * 6)]
     lines += ["    else", *written(program.automatic, FORM, {}, " " * 6), "      u := min(max(v, u_min), u_max);"]
     lines += ["    end if;", "  end when;", "end SimcPid;", ""]

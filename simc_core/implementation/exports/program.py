@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from simc_core import checks
-from simc_core.controllers.discrete import law_for
+from simc_core.controllers.discrete import law_for, scans
 from simc_core.controllers.forms import Controller, ParallelPid
 from simc_core.controllers.tracking import tracking_time as usual_tracking_time
 from simc_core.errors import InvalidParameter
@@ -27,6 +27,7 @@ from simc_core.sensitivity.margins import margins
 NO_LIMIT = 1e38  # what stands for an infinite limit: within the range of single precision
 INPUTS = ("r", "y", "u_manual", "u_ff")
 SETTINGS = ("Kp", "Ki", "Kd", "b", "c", "h", "a", "g", "pull", "u_min", "u_max")
+CHANGEABLE = ("Kp", "Ki", "Kd", "u_min", "u_max")  # may be written at any time
 STATE = ("Kp_before", "y_before", "r_before", "yF", "rF", "dy", "dr", "I", "v", "u")
 MEANING = {
     "Kp": "gain",
@@ -132,6 +133,7 @@ def program(
     single: bool,
     design: Controller | None,
     about: str,
+    delay_scans: int,
 ) -> Program:
     """The checked program. Raises InvalidParameter."""
     pid, h = controller.to_parallel(), checks.positive_time("h", h)
@@ -152,7 +154,8 @@ def program(
     filters["tustin"] = ((2 * pid.tau_F - h) / (2 * pid.tau_F + h), h / (2 * pid.tau_F + h))
     values = dict(zip(SETTINGS, (pid.Kp, pid.Ki, pid.Kd, pid.b, pid.c, h, *filters[law]), strict=False))
     values |= {"pull": min(h / T_t, 1.0), "u_min": u_min, "u_max": u_max}
-    header = _header(controller, h, law, plant, unit, date, design or controller, about)
+    late = scans("delay_scans", delay_scans)
+    header = _header(controller, h, law, plant, unit, date, design or controller, about, late)
     return Program(header, values, law, pid.tau_F > 0, pid, h, unit, plant, single)
 
 
@@ -174,6 +177,7 @@ def _header(
     date: str,
     design: Controller,
     about: str,
+    delay_scans: int,
 ) -> tuple[str, ...]:
     lines = [f"PID controller, law {law}, called every h = {h!r} {unit}"]
     lines += [f"for     {about}"] if about else []
@@ -184,7 +188,8 @@ def _header(
         loop = Loop(plant, controller)
         peaks = {"as designed": margins(Loop(plant, design)).Ms}
         peaks |= {"as typed": margins(loop).Ms} if controller != design else {}
-        peaks |= {"sampled": sampled_margins(loop, h, law).Ms}
+        late = f", the output written {delay_scans} scan{'s' * (delay_scans > 1)} later" if delay_scans else ""
+        peaks |= {f"sampled{late}": sampled_margins(loop, h, law, delay_scans).Ms}
         lines += [f"plant   {plain(plant)}"]
         lines += ["Ms      " + ", ".join(f"{number(Ms)} {which}" for which, Ms in peaks.items())]
     lines += [f"made    {date} by SIMC" if date else "made by SIMC"]

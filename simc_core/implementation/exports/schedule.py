@@ -5,11 +5,12 @@ from types import MappingProxyType
 
 from simc_core.errors import InvalidParameter
 from simc_core.implementation.exports.program import Statement, written
-from simc_core.implementation.exports.structured_text import literal
+from simc_core.implementation.exports.structured_text import NOT_COMPILED, comment, literal
 from simc_core.implementation.schedule_table import ScheduleTable
 from simc_core.notation import number
 
 COLUMNS = ("x_at", "band_at", "tau_I_at", "tau_D_at")
+LOCAL = ("part", "band", "tau_I", "tau_D")
 GAINS: tuple[Statement, ...] = (("Kp", "1.0/band"), ("Ki", "Kp/tau_I"), ("Kd", "Kp*tau_D"))
 
 
@@ -20,12 +21,12 @@ def export_schedule(table: ScheduleTable, language: str, unit: str = "s", single
     ----------
     table : ScheduleTable
         The settings.
-    language : {"python", "c", "st", "matlab"}
-        "c" is for Arduino too, behind the functions of the controller.
+    language : {"python", "c", "arduino", "st", "scl", "logix", "matlab", "modelica"}
+        "c" and "arduino" are the same, behind the functions of the controller; "logix" is a routine before its own.
     unit : {"s", "min"}
         Time unit of the table.
     single : bool
-        32-bit numbers in "st"; "c" has those of the controller.
+        32-bit numbers in "st" and "scl"; "c" has those of the controller, "logix" no others.
 
     Returns
     -------
@@ -65,14 +66,18 @@ def _columns(table: ScheduleTable) -> dict[str, tuple[float, ...]]:
 
 def _between(form: str, at: Callable[[str, str], str], indent: str) -> list[str]:
     """Straight lines: part of the way from row i to the next, at(name, row)."""
+    return [indent + form.format(name=name, value=value) for name, value in _lines(at)]
+
+
+def _lines(at: Callable[[str, str], str], part: str = "part") -> list[Statement]:
     return [
-        indent + form.format(name=name, value=f"{at(column, 'i')} + part*({at(column, 'i + 1')} - {at(column, 'i')})")
-        for name, column in zip(("band", "tau_I", "tau_D"), COLUMNS[1:], strict=True)
+        (name, f"{at(column, 'i')} + {part}*({at(column, 'i + 1')} - {at(column, 'i')})")
+        for name, column in zip(LOCAL[1:], COLUMNS[1:], strict=True)
     ]
 
 
-def _part(at: Callable[[str, str], str]) -> str:
-    return f"(x - {at('x_at', 'i')})/({at('x_at', 'i + 1')} - {at('x_at', 'i')})"
+def _part(at: Callable[[str, str], str], x: str = "x") -> str:
+    return f"({x} - {at('x_at', 'i')})/({at('x_at', 'i + 1')} - {at('x_at', 'i')})"
 
 
 def _python(table: ScheduleTable, header: list[str], single: bool) -> str:
@@ -108,7 +113,7 @@ def _st(table: ScheduleTable, header: list[str], single: bool) -> str:
         return f"{name}[{row}]"
 
     n, real, form = len(table.x), "REAL" if single else "LREAL", "{name} := {value};"
-    lines = ["(*", *(f"   {line}" for line in header), "*)", "FUNCTION_BLOCK FB_SimcSchedule"]
+    lines = [*comment(header), "FUNCTION_BLOCK FB_SimcSchedule"]
     lines += ["VAR_INPUT", f"    x : {real}; (* scheduling value *)", "END_VAR", "VAR_OUTPUT"]
     lines += [f"    {name} : {real};" for name in ("Kp", "Ki", "Kd")]
     lines += ["END_VAR", "VAR"]
@@ -120,6 +125,71 @@ def _st(table: ScheduleTable, header: list[str], single: bool) -> str:
     lines += [f"WHILE (i < {n - 2}) AND (x > x_at[i + 1]) DO", "    i := i + 1;", "END_WHILE;"]
     lines += [f"part := LIMIT(0.0, {_part(at)}, 1.0);", *_between(form, at, "")]
     return "\n".join([*lines, *written(GAINS, form, {}), "END_FUNCTION_BLOCK", ""])
+
+
+def _scl(table: ScheduleTable, header: list[str], single: bool) -> str:
+    def at(name: str, row: str) -> str:
+        return f"#{name}[{row.replace('i', '#i')}]"
+
+    n, real, form = len(table.x), "Real" if single else "LReal", "    #{name} := {value};"
+    lines = [*comment((*header, NOT_COMPILED.format("TIA Portal"))), 'FUNCTION_BLOCK "FB_SimcSchedule"']
+    lines += ["{ S7_Optimized_Access := 'TRUE' }", "VERSION : 0.1"]
+    lines += ["VAR_INPUT", f"    x : {real};", "END_VAR", "VAR_OUTPUT"]
+    lines += [f"    {name} : {real};" for name in ("Kp", "Ki", "Kd")]
+    lines += ["END_VAR", "VAR"]
+    lines += [
+        f"    {name} : Array[0..{n - 1}] of {real} := [{', '.join(map(literal, values))}];"
+        for name, values in _columns(table).items()
+    ]
+    lines += ["END_VAR", "VAR_TEMP", *(f"    {name} : {real};" for name in LOCAL), "    i : Int;", "END_VAR", "BEGIN"]
+    lines += ["    #i := 0;", f"    WHILE (#i < {n - 2}) AND (#x > #x_at[#i + 1]) DO", "        #i := #i + 1;"]
+    lines += ["    END_WHILE;", f"    #part := LIMIT(MN := 0.0, IN := {_part(at, '#x')}, MX := 1.0);"]
+    lines += [form.format(name=name, value=value) for name, value in _lines(at, "#part")]
+    own = {name: f"#{name}" for name in ("band", "tau_I", "tau_D", "Kp", "Ki", "Kd")}
+    return "\n".join([*lines, *written(GAINS, "    {name} := {value};", own), "END_FUNCTION_BLOCK", ""])
+
+
+def _logix(table: ScheduleTable, header: list[str], single: bool) -> str:
+    def at(name: str, row: str) -> str:
+        return f"{name}[{row}]"
+
+    n, form = len(table.x), "{name} := {value};"
+    told = [
+        *header,
+        NOT_COMPILED.format("Studio 5000"),
+        "Run it before the routine of the controller, whose gains it sets.",
+    ]
+    told += [f"REAL[{n}] tags: {', '.join(COLUMNS)}.", f"REAL tags: x, Kp, Ki, Kd, {', '.join(LOCAL)}."]
+    told += ["DINT tags: i.", "BOOL tags: tabled; set tabled to 0 in the first scan."]
+    lines = [*comment(told), "IF NOT tabled THEN"]
+    lines += [
+        f"    {name}[{i}] := {literal(value)};"
+        for name, values in _columns(table).items()
+        for i, value in enumerate(values)
+    ]
+    lines += ["    tabled := 1;", "END_IF;", "i := 0;", f"WHILE (i < {n - 2}) AND (x > x_at[i + 1]) DO"]
+    lines += ["    i := i + 1;", "END_WHILE;", form.format(name="part", value=_part(at))]
+    lines += ["IF part < 0.0 THEN", "    part := 0.0;", "END_IF;", "IF part > 1.0 THEN", "    part := 1.0;", "END_IF;"]
+    return "\n".join([*lines, *_between(form, at, ""), *written(GAINS, form, {}), ""])
+
+
+def _modelica(table: ScheduleTable, header: list[str], single: bool) -> str:
+    def at(name: str, row: str) -> str:
+        return f"{name}[{row}]"
+
+    n, form = len(table.x), "{name} := {value};"
+    lines = [*(f"// {line}" for line in header), "// Its outputs are the inputs Kp, Ki, Kd of SimcPid."]
+    lines += ["block SimcSchedule", '  input Real x "scheduling value";']
+    lines += [f"  output Real {name};" for name in ("Kp", "Ki", "Kd")]
+    lines += ["protected"]
+    lines += [
+        f"  parameter Real {name}[{n}] = {{{', '.join(map(repr, values))}}};"
+        for name, values in _columns(table).items()
+    ]
+    lines += [*(f"  Real {name};" for name in LOCAL), "  Integer i;", "algorithm", "  i := 1;"]
+    lines += [f"  while i < {n - 1} and x > x_at[i + 1] loop", "    i := i + 1;", "  end while;"]
+    lines += [f"  part := min(max({_part(at)}, 0.0), 1.0);", *_between(form, at, "  ")]
+    return "\n".join([*lines, *written(GAINS, form, {}, "  "), "end SimcSchedule;", ""])
 
 
 def _matlab(table: ScheduleTable, header: list[str], single: bool) -> str:
@@ -139,4 +209,15 @@ def _of(prefix: str) -> dict[str, str]:
 
 
 Writer = Callable[[ScheduleTable, list[str], bool], str]
-WRITERS: Mapping[str, Writer] = MappingProxyType({"python": _python, "c": _c, "st": _st, "matlab": _matlab})
+WRITERS: Mapping[str, Writer] = MappingProxyType(
+    {
+        "python": _python,
+        "c": _c,
+        "arduino": _c,
+        "st": _st,
+        "scl": _scl,
+        "logix": _logix,
+        "matlab": _matlab,
+        "modelica": _modelica,
+    }
+)

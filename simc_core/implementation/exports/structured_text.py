@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable
 
 from simc_core.implementation.exports.program import (
+    CHANGEABLE,
     GAINS,
     MANUAL,
     MEANING,
@@ -14,7 +15,6 @@ from simc_core.implementation.exports.program import (
 )
 
 FORM = "{name} := {value};"
-CHANGEABLE = ("Kp", "Ki", "Kd", "u_min", "u_max")  # inputs: may be written at any time
 NOT_COMPILED = "NOT COMPILED: no {} was at hand. Check it there before use."
 OTHERS = ("r", "y", "manual", "started", "u_manual", "u_ff", "e_before")
 OF_SIEMENS = {name: f"#{name}" for name in (*SETTINGS, *STATE, *OTHERS)}
@@ -22,13 +22,13 @@ OF_SIEMENS = {name: f"#{name}" for name in (*SETTINGS, *STATE, *OTHERS)}
 
 def structured_text(program: Program) -> str:
     """FUNCTION_BLOCK FB_SimcPid, in LREAL, or REAL."""
-    lines = [*_comment(program.header), "FUNCTION_BLOCK FB_SimcPid", *_declarations(program, "REAL", "LREAL"), ""]
+    lines = [*comment(program.header), "FUNCTION_BLOCK FB_SimcPid", *_declarations(program, "REAL", "LREAL"), ""]
     return "\n".join([*lines, *_body(program, {}, _by_function), "END_FUNCTION_BLOCK", ""])
 
 
 def scl(program: Program) -> str:
     """The block as an external source for TIA Portal."""
-    lines = [*_comment((*program.header, NOT_COMPILED.format("TIA Portal"))), 'FUNCTION_BLOCK "FB_SimcPid"']
+    lines = [*comment((*program.header, NOT_COMPILED.format("TIA Portal"))), 'FUNCTION_BLOCK "FB_SimcPid"']
     lines += ["{ S7_Optimized_Access := 'TRUE' }", "VERSION : 0.1", *_declarations(program, "Real", "LReal"), "BEGIN"]
     return "\n".join([*lines, *_body(program, OF_SIEMENS, _siemens_limit), "END_FUNCTION_BLOCK", ""])
 
@@ -39,10 +39,11 @@ def logix(program: Program) -> str:
     header = [*program.header, NOT_COMPILED.format("Studio 5000"), "Call it every h in a periodic task."]
     header += [f"REAL tags: {', '.join(tags)}.", "BOOL tags: manual, started; set started to 0 in the first scan."]
     settings = [f"    {name} := {literal(program.values[name])};" for name in SETTINGS]
-    return "\n".join([*_comment(header), *_body(program, {}, _by_comparing, settings), ""])
+    return "\n".join([*comment(header), *_body(program, {}, _by_comparing, settings), ""])
 
 
-def _comment(lines: Iterable[str]) -> list[str]:
+def comment(lines: Iterable[str]) -> list[str]:
+    """A comment of these lines."""
     return ["(*", *(f"   {line}" for line in lines), "*)"]
 
 

@@ -20,7 +20,7 @@ from typing import cast
 import numpy as np
 
 from simc_core import checks
-from simc_core.controllers.discrete import known_law
+from simc_core.controllers.discrete import known_law, scans
 from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
@@ -54,6 +54,8 @@ class Actuation:
         Sampling period of the controller, in the user's time unit; 0 if continuous.
     law : {"backward", "tustin"}
         Of a sampled controller, see controllers/discrete.py.
+    delay_scans : int
+        Sampling periods after which its output is written: 0, or 1 in a box that writes at its next scan.
     resolution, dead_band, backlash : float
         Of the actuator, in units of u, 0 for none; see mechanism.py.
     rate_limit : float
@@ -81,6 +83,7 @@ class Actuation:
     seed: int = 0
     h: float = 0.0
     law: str = "backward"
+    delay_scans: int = 0
     resolution: float = 0.0
     dead_band: float = 0.0
     backlash: float = 0.0
@@ -99,6 +102,7 @@ class Actuation:
         put(self, "seed", checks.whole("seed", self.seed, 0, 2**32 - 1))
         put(self, "h", checks.optional_time("h", self.h))
         known_law(self.law)
+        put(self, "delay_scans", scans("delay_scans", self.delay_scans))
         for name in ("resolution", "dead_band", "backlash"):
             put(self, name, checks.real(name, getattr(self, name), 0.0, checks.LARGEST_GAIN))
         if self.rate_limit != math.inf:

@@ -1,10 +1,12 @@
 """A sampled controller: a law of controllers/discrete.py at t = 0, h, 2h, ...
 
-It acts on what it measures just before each sample, holds u in between, and the plant is then exact for any theta
-(not a multiple of h). A sampling period is one step, or several where it is long. How a step is taken: actuation.py.
+It acts on what it measures just before each sample and holds u in between; u may be written some samples later. The
+plant is then exact for any theta (not a multiple of h). A sampling period is one step, or several where it is long.
+How a step is taken: actuation.py.
 """
 
 import math
+from collections import deque
 from collections.abc import Callable
 
 import numpy as np
@@ -56,23 +58,27 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     z[:N:fine, n + NOISE] = actuation.noise * np.random.default_rng(actuation.seed).standard_normal(samples)
     z[:N:fine, n + SETPOINT] = inputs.r(h * np.arange(samples))
     ahead[::fine] = [with_sample.dot] * samples
-    _march(z, n, ahead, reach, actuation, dt)
+    _march(z, n, ahead, reach, actuation, dt, fine * actuation.delay_scans)
     v, u = (np.repeat(z[1 : N + 1, n + column, None], 2, axis=1) for column in (ASKED, GIVEN))
     return stepped(dt, z[:N] @ y.T, v, u, h)
 
 
 def _march(
-    z: np.ndarray, n: int, ahead: list[Callable], reach: tuple[int, int], actuation: Actuation, dt: float
+    z: np.ndarray, n: int, ahead: list[Callable], reach: tuple[int, int], actuation: Actuation, dt: float, late: int
 ) -> None:
-    """All steps, each with its matrix."""
+    """All steps, each with its matrix. late: steps after which the output is written."""
     low, high = actuation.u_min, actuation.u_max
     asked, known, given = (column(z, n + each, 1) for each in (ASKED, KNOWN, GIVEN))
     w1, w2 = column(z, W1, reach[0]), column(z, W2, reach[1])
     moved, u = _mechanism(actuation, dt), 0.0
+    unwritten = deque([0.0] * late)
     for j, (take, row, head) in enumerate(zip(ahead, z, z[1:, : n + KNOWN], strict=False)):
         take(row, head)
         sent = asked[j]
         sent = known[j] = low if sent < low else high if sent > high else sent
+        if late:
+            unwritten.append(sent)
+            sent = unwritten.popleft()
         u = given[j] = w1[j] = w2[j] = moved(sent, u) if moved else sent
 
 

@@ -9,10 +9,10 @@ from pages.common.parts.settings_text import as_text
 from pages.common.parts.units import time_text
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
-from pages.common.studies.single import Study, attempt, study_of_settings
-from pages.common.take_home.proof import longest_period, sampled, sampled_response
+from pages.common.studies.single import Study, attempt, judged_settings
+from pages.common.take_home.proof import longest_period, not_drawn, responses, sampled, sampled_response
 from pages.common.take_home.typed import SPAN, assumed, rows, typed_into
-from simc_core import BOXES, Typed, simulate
+from simc_core import BOXES, Typed
 from simc_core.errors import SimcError
 from simc_core.implementation.single_precision import dead_error
 from simc_core.notation import number, plain
@@ -20,7 +20,6 @@ from simc_core.plants.step_facts import SlopeFacts, StepFacts
 from simc_core.published.sources import SOURCES
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import TimeResponse
-from simc_core.simulation.horizon import times
 from simc_core.studies.advice import advice, advice_on_settings
 
 BLIND = 1e-3  # of the range of PV: an error that REAL no longer sees and that is larger is told
@@ -68,11 +67,15 @@ class Report:
 
 
 def report(design: Design, present: Study, link: str) -> Report:
-    """The report of a design; `present` is its study. Raises SimcError where the box does not take it."""
-    sheet = design.sheet
-    typed = typed_into(design.box, present.controller, sheet, design.home.rounding == "safe") if design.box else None
-    final = study_of_settings(design.plant, typed.effective) if typed else present
-    margins, watch = {"design": present.margins}, []
+    """The report of a design; `present` is its study. What cannot be told of it is under "What to watch"."""
+    sheet, typed, watch = design.sheet, None, []
+    if design.box:
+        try:
+            typed = typed_into(design.box, present.controller, sheet, design.home.rounding == "safe")
+        except SimcError as error:
+            watch.append(f"{BOXES[design.box].title} does not take this design: {error}.")
+    final = judged_settings(design.plant, typed.effective) if typed else present
+    margins = {"design": present.margins}
     if typed:
         margins["as typed"] = final.margins
     if design.actuator.h:
@@ -81,7 +84,7 @@ def report(design: Design, present: Study, link: str) -> Report:
             watch += _on_sampling(final, design)
         except SimcError as error:
             watch.append(str(error))
-    before = attempt(lambda: study_of_settings(design.plant, design.now))[0] if design.now else None
+    before = attempt(lambda: judged_settings(design.plant, design.now))[0] if design.now else None
     curves, why = _responses(design, present, final, before)
     return Report(
         tag=sheet.tag,
@@ -113,20 +116,18 @@ def _responses(
     design: Design, present: Study, final: Study, before: Study | None
 ) -> tuple[dict[str, TimeResponse], list[str]]:
     """The new loop, as it is built where that can be simulated, the design, and the loop now; what could not be."""
-    begins, t_end = times(present.loop, design.excitation.scenario())
-    asked = design.excitation.scenario(disturbance_time=begins, t_end=t_end)
     built = replace(design.actuator.scenario(design.excitation).actuation, noise=0.0)
-    found, why = {}, []
+    found: dict[str, TimeResponse] = {}
+    why: list[str] = []
     if final is not present or not built.linear:
         name = "as built" if not built.linear else "as typed"
         try:
             found[name] = sampled_response(present.loop, final.loop, design, built)
         except SimcError as error:
-            why.append(f"The loop as built is not drawn: {error}")
-    found["design"] = simulate(present.loop, asked)
-    if before:
-        found["now"] = simulate(before.loop, asked)
-    return found, why
+            why.append(not_drawn(name, final.loop, error))
+    loops = {"design": present.loop} | ({"now": before.loop} if before else {})
+    others, why_not = responses(present.loop, loops, design)
+    return found | others, why + why_not
 
 
 def _how(design: Design, present: Study) -> str:
@@ -192,7 +193,7 @@ def _asked(design: Design) -> str:
 def _on_sampling(final: Study, design: Design) -> list[str]:
     """Where h is too long, and what an integral in 32 bits does not see."""
     found, h = [], design.actuator.h
-    longest, sheet = longest_period(final.loop, design.actuator.law, design.home.scans), design.sheet
+    longest, sheet = longest_period(final.loop, design.actuator.law, design.actuator.delay_scans), design.sheet
     if h > longest:
         period = time_text(longest, sheet)
         found.append(f"Sampling is slow for this loop: with {period} or less Ms rises by 5 % at most.")

@@ -1,0 +1,28 @@
+"""A button that saves an SVG as PNG. The browser does it: it has the letters, and no program has to be installed."""
+
+from pathlib import Path
+
+import streamlit as st
+
+HERE = Path(__file__).parent
+_component = st.components.v2.component(
+    "simc_as_png",
+    html='<button type="button">Figures as PNG</button>',
+    css=(HERE / "as_png.css").read_text(encoding="utf-8"),
+    js=(HERE / "as_png.js").read_text(encoding="utf-8"),
+)
+
+
+def as_png(svg: str, name: str, key: str) -> None:
+    """The button.
+
+    Parameters
+    ----------
+    svg : str
+        A picture with width and height.
+    name : str
+        Of the file.
+    key : str
+        Of the widget.
+    """
+    _component(key=key, data={"svg": svg, "name": name}, width="content")
