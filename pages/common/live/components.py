@@ -28,6 +28,7 @@ def _text(*files: Path) -> str:
 tuning = _instrument("tuning")
 cascade = _instrument("cascade")
 hand = _instrument("hand")
+plane = _instrument("plane")
 message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
 
 
