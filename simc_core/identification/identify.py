@@ -16,7 +16,7 @@ from simc_core.identification.judgement.estimate import Estimate, estimate
 from simc_core.identification.judgement.gain_per_move import GainOfMove, differ, gains_per_move
 from simc_core.identification.judgement.noise import resolution
 from simc_core.identification.judgement.refusals import refuse_before, refuse_weak
-from simc_core.identification.judgement.verdicts import along, verdicts
+from simc_core.identification.judgement.verdicts import along, disagree, verdicts
 from simc_core.identification.models import as_model
 from simc_core.identification.moves import find_moves
 from simc_core.identification.parameters import natural
@@ -171,7 +171,7 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
     names, values, covariance = natural(found)
     errors = np.sqrt(np.diag(covariance))
     parameters: Mapping[str, float] = dict(zip(names, values.tolist(), strict=True))
-    refuse_weak(found)
+    _refuse_weak(trends, found)
     if sign is not None and parameters[first] * checks.whole("sign", sign, -1, 1) <= 0:
         raise NotIdentifiable(
             f"The gain is {parameters[first]:.3g}, against the sign given: PV was moved by something else, or the loop "
@@ -207,6 +207,16 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
         criterion=np.nan,
         estimate=found,
     )
+
+
+def _refuse_weak(trends: list[Trend], found: Estimate) -> None:
+    """Refuse a gain that is none; where that is so because moves disagree, this is the reason."""
+    try:
+        refuse_weak(found)
+    except NotIdentifiable:
+        for said in disagree(_gains(trends, found)):
+            raise NotIdentifiable(said) from None
+        raise
 
 
 def _follows(trends: list[Trend], parameters: Mapping[str, float], bias: Array) -> list[str]:

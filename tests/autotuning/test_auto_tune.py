@@ -44,12 +44,12 @@ def test_without_noise_they_are_the_optimum_of_the_true_plant(kind):
 
 
 def test_the_limits_hold_on_the_true_plant():
-    """Twelve tests with 10 % noise. With 95 % each, 3 of 12 fail once in 50 times; the settings of one go together."""
+    """Eight tests with 10 % noise. With 95 % each, 3 of 8 fail once in 170 times; the settings of one go together."""
     kept = []
-    for seed in range(12):
+    for seed in range(8):
         found = auto_tune(identify(trend(0.1, seed)))
         kept.append(all(margins(Loop(TRUTH, one.controller)).Ms <= one.limit for one in found))
-    assert sum(kept) >= 10
+    assert sum(kept) >= 6
 
 
 def test_more_noise_makes_them_slower():

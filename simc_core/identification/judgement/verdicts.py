@@ -24,7 +24,7 @@ def verdicts(estimate: Estimate, half_width: float, moves: tuple[GainOfMove, ...
     fit : float
         1 - |residuals|/|PV - mean|.
     """
-    differ = _disagree(moves)
+    differ = disagree(moves)
     found = [*differ, *_poor(fit), *([] if differ else _size(estimate)), *_disturbed(estimate)]
     return (*found, *_settled(estimate), *_dead_time(estimate, half_width), *_lags(estimate), *_along(estimate))
 
@@ -62,7 +62,8 @@ def _disturbed(estimate: Estimate) -> list[str]:
     return found
 
 
-def _disagree(moves: tuple[GainOfMove, ...]) -> list[str]:
+def disagree(moves: tuple[GainOfMove, ...]) -> list[str]:
+    """What to think of moves whose gains differ."""
     if not differ(moves):
         return []
     low, high = extremes(moves)
