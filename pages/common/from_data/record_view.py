@@ -1,5 +1,7 @@
 """The record: PV, SP and OP, which part of it is fitted, and what is left out."""
 
+from typing import Any
+
 import streamlit as st
 
 from pages.common.from_data.work import ends_of, moves_of
