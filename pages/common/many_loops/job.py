@@ -1,6 +1,7 @@
 """A list being tuned in a process of its own, while pages go on. Pure: no streamlit.
 
-One list of the whole server at a time: others wait for their turn, so that sliders of other visitors stay fast.
+One list of the whole server at a time, which gives way to everything else on the machine: others wait for their turn,
+so that sliders of other visitors stay fast.
 """
 
 import logging
@@ -11,7 +12,8 @@ from simc_core import Result, tune_many
 from simc_core.many.processes import Processes
 from simc_core.many.run import Row
 
-CHUNK = 100  # rows between two looks at the progress
+CHUNK = 200  # rows between two looks at the progress
+NICE = 15  # a slider that somebody moves goes before
 TURN = Lock()
 
 
@@ -44,7 +46,7 @@ class Job:
                 return
         try:
             self.state = "running"
-            with Processes(1) as processes:
+            with Processes(1, NICE) as processes:
                 for result in tune_many(self.rows, processes, CHUNK):
                     self.results.append(result)
                     if self._stop.is_set():
