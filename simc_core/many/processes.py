@@ -12,7 +12,7 @@ class Processes:
     """n processes, each driven by a thread that waits for it.   nice: as of Worker."""
 
     def __init__(self, n: int, nice: int = 0):
-        self._nice = nice
+        self._nice, self._max_workers = nice, n  # the second as a ProcessPoolExecutor has it
         self._threads = ThreadPoolExecutor(n)
         self._own = local()
         self._workers: list[Worker] = []

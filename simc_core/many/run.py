@@ -19,7 +19,7 @@ from simc_core.many.tune_rows import tune_chunk
 from simc_core.many.worker import TookTooLong, Worker, WorkerGone
 
 ROWS = 1000  # of a chunk: a second; with fewer, too few loops have the same structure
-ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched
+ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched, at least; two a worker where there are more
 
 LONGEST = 60.0  # seconds that a row may take when it is alone; of a chunk one row may, and
 A_ROW = 0.25  # each further one so many, `weight` times that where a tune of one's own says so
@@ -107,6 +107,7 @@ def _submitted(chunks: Iterator[list[Row]], executor: Any, tune: TuneChunk) -> I
     own: Processes | None = None
     alone = Worker()
     waiting: deque[tuple[list[Row], Any]] = deque()
+    most = max(ON_THEIR_WAY, 2 * _workers(executor))
     try:
         for rows in chunks:
             try:
@@ -115,7 +116,7 @@ def _submitted(chunks: Iterator[list[Row]], executor: Any, tune: TuneChunk) -> I
                 own = Processes(_workers(executor))
                 future = _submit(own, tune, rows)
             waiting.append((rows, future))
-            if len(waiting) >= ON_THEIR_WAY:
+            if len(waiting) >= most:
                 yield from _fetched(*waiting.popleft(), tune, alone, executor)
         while waiting:
             yield from _fetched(*waiting.popleft(), tune, alone, executor)
@@ -128,7 +129,9 @@ def _submitted(chunks: Iterator[list[Row]], executor: Any, tune: TuneChunk) -> I
 
 
 def _workers(executor: Any) -> int:
-    """As many as the executor that is replaced, where it tells."""
+    """Of the executor, where it tells."""
+    if hasattr(executor, "ncores"):  # a Dask client: by the addresses of its workers
+        return max(sum(executor.ncores().values()), 1)
     return getattr(executor, "_max_workers", None) or os.cpu_count() or 1
 
 
