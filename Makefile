@@ -6,7 +6,7 @@ PORT ?= 8501
 HOST ?= 127.0.0.1
 UV := uv==0.13.9
 
-.PHONY: run test lint doctest docs bench bench-ui screenshots lock licences clean
+.PHONY: run test prepared programs installed lint doctest docs bench bench-ui screenshots lock licences clean
 
 run: $(VENV)/run.stamp
 	@echo "SIMC: http://localhost:$(PORT)"
@@ -15,9 +15,14 @@ run: $(VENV)/run.stamp
 	$(BIN)/streamlit run app.py --server.address $(HOST) --server.port $(PORT)
 
 # Browser tests last: the others say more exactly what broke. Each worker has a server and a browser of its own.
-test: $(VENV)/dev.stamp lint chromium nginx systemd-analyze node gcc g++ avr-gcc octave
-	$(BIN)/python -m pytest tests simc_core --doctest-modules --ignore=tests/browser --ignore=tests/server/outgoing -n auto
+test:
+	@$(MAKE) --no-print-directory --jobs --output-sync=target prepared
+	$(BIN)/python -m pytest tests simc_core --doctest-modules --ignore=tests/browser --ignore=tests/server/outgoing \
+		-n auto --dist worksteal
 	$(BIN)/python -m pytest tests/browser -n auto --dist loadgroup
+
+# Environments and Debian's programs come from the network, side by side.
+prepared: lint programs
 
 lint: $(VENV)/dev.stamp node_modules/.stamp
 	$(BIN)/ruff check .
@@ -86,6 +91,7 @@ $(VENV)/docs.stamp: requirements-docs.lock | $(VENV)/bin/python
 	touch $@
 
 # Programs of Debian that tests need, installed where that is allowed: as root, or by sudo that asks nothing.
+PROGRAMS := chromium nginx systemd-analyze node npm gcc g++ avr-gcc octave
 DEBIAN_chromium := chromium
 DEBIAN_nginx := nginx
 DEBIAN_systemd-analyze := systemd
@@ -95,10 +101,19 @@ DEBIAN_gcc := gcc libc6-dev
 DEBIAN_g++ := g++
 DEBIAN_avr-gcc := gcc-avr binutils-avr avr-libc
 DEBIAN_octave := octave
-.PHONY: chromium nginx systemd-analyze node npm gcc g++ avr-gcc octave
-chromium nginx systemd-analyze node npm gcc g++ avr-gcc octave:
-	@PATH="$$PATH:/usr/sbin"; command -v $@ >/dev/null && exit 0; \
+programs: npm  # first and alone: lint waits for it beside, and two apt-get would meet
+	@$(MAKE) --no-print-directory installed
+
+installed:
+	@PATH="$$PATH:/usr/sbin"; MISSING=; \
+	$(foreach each,$(PROGRAMS),command -v $(each) >/dev/null || MISSING="$$MISSING $(DEBIAN_$(each))";) \
+	[ "$$MISSING" ] || exit 0; \
 	if [ "$$(id -u)" = 0 ]; then AS=; elif sudo -n true 2>/dev/null; then AS="sudo -n"; else AS=none; fi; \
 	if [ "$$AS" != none ] && command -v apt-get >/dev/null; then \
-	    $$AS apt-get update -q && $$AS apt-get install -y -q --no-install-recommends $(DEBIAN_$@) && exit 0; fi; \
-	echo "The tests need $@. Install it: apt-get install $(DEBIAN_$@) (as root)"; exit 1
+	    $$AS apt-get update -q && $$AS apt-get install -y -q --no-install-recommends $$MISSING && exit 0; fi; \
+	echo "The tests need programs that are not here. Install them: apt-get install$$MISSING (as root)"; exit 1
+
+# make chromium: that one alone
+.PHONY: $(PROGRAMS)
+$(PROGRAMS):
+	@$(MAKE) --no-print-directory installed PROGRAMS=$@

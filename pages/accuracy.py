@@ -7,7 +7,7 @@ from pages.common.shell import header
 from simc_core.published.checks import check_all
 
 header.show("accuracy")
-st.markdown("#### Check the numbers")
+st.header("Check the numbers")
 st.markdown(
     "Each row is computed now, by the same functions that draw the other pages, and set beside what was printed, "
     "follows by hand, or was computed in 60 digits by another method. A printed number can be met to half its last "
@@ -18,6 +18,5 @@ summary(checks)
 groups(checks)
 st.caption(
     "All published numbers are tests of the program, and the high-precision ones are computed again by its tests; "
-    "these are a selection. [SK03] J. Process Control 13 (2003) 291-309. [V06] Viteckova, SIMC tables and examples. "
-    "[PSB] Prelic, Sekara, Boskovic, cascade processes under robustness constraints."
+    "these are a selection."
 )

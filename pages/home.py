@@ -9,6 +9,6 @@ from simc_core.plants.examples import EVERYDAY
 header.show("home")
 st.title("PI and PID tuning by SIMC with exact dead time")
 my_plant()
-st.subheader("Or begin with an everyday process")
+st.header("Or begin with an everyday process")
 cards(EVERYDAY, "everyday")
 papers()

@@ -25,8 +25,10 @@ VIEWS = ("Live", "Bode of L", "Model error", "As built", "Compare")
 
 def decide(design: Design, made: Study | None, present: Study | None) -> Study | None:
     """What is to be decided, and what it comes to. Returns the settings in the plant now, if they were told."""
-    with st.popover("Change the plant", width="stretch"):
-        plant_entry()
+    change = st.popover("Change the plant", width="stretch", key="change_plant", on_change="rerun")
+    if change.open:
+        with change:
+            plant_entry()
     source_control(made)
     if design.source == "own":
         my_settings(made)
@@ -64,7 +66,7 @@ def look(design: Design, present: Study, baseline: Study | None) -> None:
             open_loop(studies)
     if error.open:
         with error:
-            model_error_view(present, design.excitation)
+            model_error_view(present, design)
     if built.open:
         with built:
             actuator_view(present, design)

@@ -1,5 +1,6 @@
 """SIMC tuning of PI/PID controllers, with exact dead time. See README for a ten-line example."""
 
+from simc_core.autotuning.auto_tune import AutoTuned, auto_tune
 from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_cascade
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.certificate.verdict import NestedStability, Stability, count_unstable, stability, stability_many
@@ -19,17 +20,22 @@ from simc_core.errors import (
     SimcError,
     WrongType,
 )
+from simc_core.identification.cloud_peaks import ms_of_plants
+from simc_core.identification.experiments.known_controller import op_of_controller
 from simc_core.identification.experiments.relay import Relay, relay_from_trend, relay_test
 from simc_core.identification.experiments.retune_oscillation import retune_oscillation
 from simc_core.identification.experiments.setpoint_overshoot import setpoint_overshoot
+from simc_core.identification.frequency_band import FrequencyBand, frequency_band
 from simc_core.identification.graphical import ByHand, by_hand
 from simc_core.identification.identified import Identified
 from simc_core.identification.identify import identify
 from simc_core.identification.moves import find_moves
+from simc_core.identification.operating_points import OperatingPoint, operating_points
 from simc_core.identification.rank import identify_all
 from simc_core.identification.reading.reader import read_trend
 from simc_core.identification.robust_tau_c import ms_of_cloud, robust_tau_c
 from simc_core.identification.trend import Trend
+from simc_core.identification.uncertainty import Uncertainty, uncertainty_of
 from simc_core.implementation.boxes.box import Box
 from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.convert import Typed, from_box, to_box
@@ -47,9 +53,10 @@ from simc_core.many.result import Judged, Result
 from simc_core.many.run import tune_many
 from simc_core.many.tune_rows import tune_chunk, tune_row
 from simc_core.metrics.nested_performance import NestedPerformance
-from simc_core.metrics.performance import Performance, performance
-from simc_core.metrics.step_metrics import StepMetrics
-from simc_core.metrics.step_quality import Quality, StepQuality, step_quality
+from simc_core.metrics.noise import noise_variance
+from simc_core.metrics.performance import Performance, performance, step_quality
+from simc_core.metrics.step_quality import Quality
+from simc_core.metrics.step_records import StepMetrics, StepQuality
 from simc_core.numbers import read_number, read_numbers
 from simc_core.optimal.robust_region import gain_intervals, robust_region
 from simc_core.optimal.stability_limit import stability_limit
@@ -71,8 +78,8 @@ from simc_core.reduction.records import BudgetEntry, Candidate, Reduction, Step
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.rules.direct_synthesis import direct_synthesis
 from simc_core.rules.simc import simc, tau_c_presets
-from simc_core.sensitivity.bandwidth import Bandwidth, bandwidth
-from simc_core.sensitivity.margins import crossings, margins, margins_many
+from simc_core.sensitivity.bandwidth import Bandwidth
+from simc_core.sensitivity.margins import bandwidth, crossings, margins, margins_many
 from simc_core.sensitivity.margins_of_response import Margins, margins_of
 from simc_core.sensitivity.ultimate import ultimate
 from simc_core.simulation import Actuation, NestedResponse, Scenario, TimeResponse, simulate
@@ -86,6 +93,7 @@ __all__ = [
     "BOXES",
     "RULES",
     "Actuation",
+    "AutoTuned",
     "Bandwidth",
     "Box",
     "BoxError",
@@ -100,6 +108,7 @@ __all__ = [
     "EqualRobustness",
     "FirstOrderDelay",
     "FormError",
+    "FrequencyBand",
     "FrequencyResponse",
     "GainSchedule",
     "IController",
@@ -119,6 +128,7 @@ __all__ = [
     "NotIdentifiable",
     "NotReducible",
     "NotStable",
+    "OperatingPoint",
     "Optimum",
     "OscillatingDelay",
     "OutOfDomain",
@@ -147,9 +157,11 @@ __all__ = [
     "Trend",
     "Typed",
     "Ultimate",
+    "Uncertainty",
     "UnstableDelay",
     "WrongType",
     "at_equal_robustness",
+    "auto_tune",
     "bandwidth",
     "by_hand",
     "comparison",
@@ -160,6 +172,7 @@ __all__ = [
     "export",
     "export_schedule",
     "find_moves",
+    "frequency_band",
     "frequency_response",
     "from_box",
     "gain_intervals",
@@ -171,6 +184,10 @@ __all__ = [
     "margins_many",
     "margins_of",
     "ms_of_cloud",
+    "ms_of_plants",
+    "noise_variance",
+    "op_of_controller",
+    "operating_points",
     "optimal",
     "parse_plant",
     "performance",
@@ -204,4 +221,5 @@ __all__ = [
     "tune_many",
     "tune_row",
     "ultimate",
+    "uncertainty_of",
 ]

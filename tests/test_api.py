@@ -68,11 +68,16 @@ PARAMETERS = {
 FIELDS = {
     "Reduction": "model steps alternatives",
     "Stability": "verdict unstable_poles",
-    "Margins": "GM GM_lower PM_deg delay_margin Ms Mt omega_180 omega_c omega_Ms omega_Mt stable",
+    "Margins": (
+        "GM GM_lower PM_deg delay_margin Ms Mt omega_180 omega_c omega_Ms omega_Mt stable omega_bS omega_bT max_KS"
+    ),
     "FrequencyResponse": "omega L S T KS GS",
     "TimeResponse": "t r d y u",
     "Performance": "setpoint disturbance",
-    "StepMetrics": "IAE ISE ITAE TV overshoot peak peak_time rise_time settling_time",
+    "StepMetrics": (
+        "IAE ISE ITAE TV overshoot peak peak_time rise_time settling_time "
+        "IE ITSE settling_1 settling_5 first_arrival decay_ratio period largest_u"
+    ),
     "Identified": (
         "model plant parameters standard_errors intervals covariance bias drift residuals fit verdicts structure"
     ),

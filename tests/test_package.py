@@ -46,4 +46,4 @@ def test_the_wheel_works_without_the_app(wheel, tmp_path):
 
 
 def test_the_app_extra_is_what_the_app_runs_with():
-    assert PROJECT["optional-dependencies"]["app"] == (ROOT / "requirements.txt").read_text().split()
+    assert PROJECT["optional-dependencies"]["app"] == (ROOT / "requirements.txt").read_text().splitlines()

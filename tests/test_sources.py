@@ -14,8 +14,10 @@ def keys_used() -> set[str]:
     files = [ROOT / "README.md"]
     for folder in ("simc_core", "pages", "tests", "docs"):
         files += [path for path in (ROOT / folder).rglob("*") if path.suffix in {".py", ".js", ".md", ".rst"}]
+    lessons = [path.read_text() for path in (ROOT / "pages" / "common" / "lessons" / "data").glob("*.toml")]
+    in_lessons = {key for text in lessons for key in re.findall(r'^source = "(\w+)"', text, re.MULTILINE)}
     texts = [path.read_text() for path in files if path not in OWNERS and "_build" not in path.parts]
-    return {
+    return in_lessons | {
         key
         for text in texts
         for inside in BRACKETS.findall(text)

@@ -434,6 +434,8 @@ def _series(Kc: float, tau_I: float, tau_D: float, tau_F: float) -> Factored:
 
 def _parallel(Kp: float, Ki: float, Kd: float, tau_F: float) -> Factored:
     filter_ = (0.0, tau_F, 1.0)
+    if Ki == 0 and Kd == 0:
+        return Factored(Kp, factors(), factors(filter_))
     if Ki == 0:
         return Factored(1.0, factors((0.0, Kd, Kp)), factors(filter_))
     return Factored(Ki, factors((Kd / Ki, Kp / Ki, 1.0)), factors((0.0, 1.0, 0.0), filter_))

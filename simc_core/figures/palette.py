@@ -44,6 +44,8 @@ FULL_AND_REDUCED = ((Y, "solid", 2.2), (REDUCED, "dash", 2.0))
 
 CALM, ATTENTION, ALARM = "#009E73", "#C77C00", "#C8442E"
 
+CHOSEN = ("#0072B2", "#6DB6E4")  # small letters of what is chosen, and the ring round the focus: light page, dark page
+
 CALM_BAND, ALARM_BAND = "rgba(0,158,115,0.14)", "rgba(200,68,46,0.13)"  # behind curves
 
 TIME = "t  [time unit]"
@@ -64,6 +66,7 @@ def css_variables(selector: str) -> str:
     """
     names = {"y": Y, "u": U, "r": R, "d": D, "s": S, "inner": INNER, "grid": GRID}
     names |= {"calm": CALM, "attention": ATTENTION, "alarm": ALARM, "calm-band": CALM_BAND, "alarm-band": ALARM_BAND}
+    names["chosen"] = f"light-dark({', '.join(CHOSEN)})"
     for name, hue in (("y", Y), ("u", U), ("s", S), ("inner", INNER)):
         names |= {f"{name}-pin-{i}": shade for i, shade in enumerate(PIN_SHADES[hue], start=1)}
     return f"{selector} {{{' '.join(f'--simc-{name}: {color};' for name, color in names.items())}}}\n"

@@ -6,19 +6,23 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from simc_core.errors import WrongType
+from simc_core.errors import SimcError, WrongType
 from simc_core.identification.estimator.held_input import Array
+from simc_core.identification.estimator.structures import STRUCTURES
 from simc_core.identification.identified import Identified
+from simc_core.identification.models import as_model
 from simc_core.identification.parameters import natural_values
+from simc_core.identification.uncertainty import Uncertainty, uncertainty_of
+from simc_core.plants.plant import Plant
 
 MEMBERS = 200
-NEAR = 6.0  # of the criterion within which a structure is in the cloud
 SEED = 20031129  # the same trend gives the same numbers
+Uncertain = Identified | Uncertainty | Sequence[Identified] | Sequence[Uncertainty]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cloud:
-    """Plants of one structure: values (n, m) of theta, its lags and gains, by name."""
+    """Plants of one structure: values (n, m) of theta, its lags and gains, by name; the estimate first."""
 
     structure: str
     names: tuple[str, ...]
@@ -48,6 +52,18 @@ class Cloud:
             case _:
                 return value["k_prime"] * late / (s - value["a"])
 
+    def plants(self, count: int) -> list[Plant]:
+        """The first `count` of them, the estimate first; members outside the bounds of a plant are passed over."""
+        found: list[Plant] = []
+        for row in self.values:
+            if len(found) == count:
+                break
+            try:
+                found.append(as_model(self.structure, dict(zip(self.names, row.tolist(), strict=True)))[0])
+            except SimcError:
+                continue
+        return found
+
     @property
     def integrators(self) -> int:
         """Poles at the origin."""
@@ -59,37 +75,52 @@ class Cloud:
         return int(self.structure == "unstable")
 
 
-def clouds(identified: Identified | Sequence[Identified], members: int = MEMBERS) -> list[Cloud]:
+def clouds(uncertain: Uncertain, members: int = MEMBERS) -> list[Cloud]:
     """The estimate and `members` plants drawn around it, for each structure that fits nearly as well as the first.
 
     Parameters
     ----------
-    identified : Identified, or several as `identify_all` ranks them
+    uncertain : Identified or Uncertainty, or several
+        Of several Identified, as `identify_all` ranks them, those within 6 of the best criterion count.
     members : int
         Plants of each structure.
     """
-    several = [identified] if isinstance(identified, Identified) else list(identified)
-    if not several or not all(isinstance(one, Identified) for one in several):
-        raise WrongType("identified must be what identify or identify_all returns")
-    return [_drawn(one, members) for one in several if not one.criterion > NEAR]
+    return [_drawn(one, members) for one in _uncertainties(uncertain)]
 
 
-def _drawn(one: Identified, members: int) -> Cloud:
-    estimate = one.estimate
-    structure = estimate.fit.problem.structure
+def _uncertainties(uncertain: Uncertain) -> tuple[Uncertainty, ...]:
+    if isinstance(uncertain, Uncertainty):
+        return (uncertain,)
+    if isinstance(uncertain, Identified):
+        return uncertainty_of(uncertain)
+    several = tuple(uncertain)
+    known = tuple(one for one in several if isinstance(one, Uncertainty))
+    fitted = tuple(one for one in several if isinstance(one, Identified))
+    if several and len(known) == len(several):
+        return known
+    if several and len(fitted) == len(several):
+        return uncertainty_of(fitted)
+    raise WrongType("identified must be what identify, identify_all or uncertainty_of returns")
+
+
+def _drawn(one: Uncertainty, members: int) -> Cloud:
+    structure = STRUCTURES[one.structure]
     chance = np.random.default_rng(SEED)
-    spread, vectors = np.linalg.eigh((estimate.spread + estimate.spread.T) / 2)
-    root = vectors * np.sqrt(np.maximum(spread, 0.0))
+    size = np.sqrt(np.maximum(np.diag(one.matrix), 0.0))
+    own = np.where(size > 0, size, 1.0)  # drawn from the correlations, so that units make no other plants
+    spread, vectors = np.linalg.eigh(one.matrix / np.outer(own, own))
+    root = size[:, None] * vectors * np.sqrt(np.maximum(spread, 0.0))
     normal = chance.standard_normal((members, len(spread))) @ root.T
-    normal /= np.sqrt(chance.chisquare(estimate.freedom, (members, 1)) / estimate.freedom)  # Student's t
-    values = estimate.values + np.concatenate([np.zeros((1, len(spread))), normal])
+    normal /= np.sqrt(chance.chisquare(one.freedom, (members, 1)) / one.freedom)  # Student's t
+    centre = np.array(one.values)
+    values = centre + np.concatenate([np.zeros((1, len(spread))), normal])
     lags = slice(1, 1 + len(structure.lags))
-    values[:, lags] = np.clip(values[:, lags], estimate.values[lags] - 5, estimate.values[lags] + 5)
+    values[:, lags] = np.clip(values[:, lags], centre[lags] - 5, centre[lags] + 5)
     values[:, 0] = np.maximum(values[:, 0], 0.0)
     if "zeta" in structure.lags:
         values[:, 2] = np.maximum(values[:, 2], 0.0)
     gain = 1 + len(structure.lags)
-    kept = values[:, gain] * estimate.values[gain] > 0
+    kept = values[:, gain] * centre[gain] > 0
     found = natural_values(structure.lags, structure.gains, values[kept])
     names = tuple({"1/a": "a", "kT": "T"}.get(name, name) for name in ("theta", *structure.lags, *structure.gains))
     return Cloud(structure.key, names, found)

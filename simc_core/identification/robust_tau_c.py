@@ -1,15 +1,16 @@
 """The tau_c for which a whole cloud of plants stays robust: SIMC settings of the estimate, Ms of every plant."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from simc_core import checks
-from simc_core.controllers.forms import IController, IdealPid, SeriesPid
+from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter, NotIdentifiable
-from simc_core.identification.cloud import Cloud, clouds
+from simc_core.identification.cloud import Cloud, Uncertain, clouds
+from simc_core.identification.cloud_peaks import grid, peaks
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.identified import Identified
 from simc_core.rules.simc import simc
@@ -115,30 +116,8 @@ def robust_tau_c(identified: Identified | Sequence[Identified], Ms: float = 1.7,
     """
     Ms = checks.real("Ms", Ms, 1.05, 10.0)
     probability = checks.real("probability", probability, 0.5, 0.999)
-    found = clouds(identified)
     best = identified if isinstance(identified, Identified) else identified[0]
-
-    def passed(times: Array) -> NDArray[np.bool_]:
-        return _measured(found, best, times).quantile(probability) <= Ms
-
-    times = _times(None, best)
-    good = np.flatnonzero(passed(times))
-    if good.size == 0:
-        raise NotIdentifiable(
-            f"No tau_c up to {times[-1]:.3g} keeps Ms <= {Ms:g} with {100 * probability:g} %: the trend says too "
-            "little to tune on. Repeat the test with a larger step, or two."
-        )
-    first = int(good[0])
-    if first == 0:
-        return float(times[0])
-    low, high = float(times[first - 1]), float(times[first])
-    for _ in range(8):
-        middle = (low * high) ** 0.5
-        if passed(np.array([middle]))[0]:
-            high = middle
-        else:
-            low = middle
-    return high
+    return smallest_tau_c(identified, lambda tau_c: simc(best.model, tau_c), _times(None, best), Ms, probability)
 
 
 def _times(tau_c: ArrayLike | None, best: Identified) -> Array:
@@ -154,29 +133,46 @@ def _times(tau_c: ArrayLike | None, best: Identified) -> Array:
     return np.geomspace(theta, LONGEST * theta, STEPS)
 
 
+def smallest_tau_c(
+    uncertain: Uncertain,
+    controller: Callable[[float], Controller],
+    times: Array,
+    Ms: float,
+    probability: float,
+) -> float:
+    """The smallest of the rising `times`, and then between them, whose controller keeps Ms within the limit.
+
+    controller: gives the settings of a tau_c.   Raises NotIdentifiable where none does.
+    """
+    drawn = clouds(uncertain)
+    omega = grid(drawn)
+    responses = [cloud.response(omega) for cloud in drawn]
+
+    def passed(tau_c: float) -> bool:
+        found = peaks(drawn, responses, omega, controller(tau_c))
+        return bool(np.quantile(found, probability, method="higher") <= Ms)
+
+    tried = times.tolist()
+    first = next((i for i, tau_c in enumerate(tried) if passed(tau_c)), None)
+    if first is None:
+        raise NotIdentifiable(
+            f"No tau_c up to {tried[-1]:.3g} keeps Ms <= {Ms:g} with {100 * probability:g} %: the trend says too "
+            "little to tune on. Repeat the test with a larger step, or two."
+        )
+    if first == 0:
+        return float(tried[0])
+    low, high = tried[first - 1], tried[first]
+    for _ in range(8):
+        middle = (low * high) ** 0.5
+        if passed(middle):
+            high = middle
+        else:
+            low = middle
+    return high
+
+
 def _measured(found: list[Cloud], best: Identified, times: Array) -> MsOfCloud:
-    scale = max(best.model.theta, best.standard_errors["theta"], 1e-3 * best.plant.slowest, 1e-9)
-    low = min(1e-5 / scale, 1e-3 / max(best.plant.slowest, scale))
-    omega = np.concatenate([np.geomspace(low, 1e-2 / scale, 60), np.geomspace(1e-2 / scale, 60 / scale, 300)[1:]])
+    omega = grid(found)
     responses = [cloud.response(omega) for cloud in found]
-    rows = []
-    for tau_c in times.tolist():
-        controller = simc(best.model, tau_c)
-        C = controller.response(1j * omega)
-        integral = _integral(controller)
-        peaks = [_peaks(cloud, G * C, integral) for cloud, G in zip(found, responses, strict=True)]
-        rows.append(np.concatenate(peaks))
+    rows = [peaks(found, responses, omega, simc(best.model, tau_c)) for tau_c in times.tolist()]
     return MsOfCloud(times, np.array(rows))
-
-
-def _integral(controller: SeriesPid | IdealPid | IController) -> int:
-    return 1 if isinstance(controller, IController) or np.isfinite(controller.tau_I) else 0
-
-
-def _peaks(cloud: Cloud, L: np.ndarray, integral: int) -> Array:
-    """Ms of each row; inf where the turning of 1 + L shows poles in the right half plane."""
-    difference = 1 + L
-    steps = np.angle(difference[:, 1:] / difference[:, :-1])
-    turned = steps.sum(axis=1) - np.angle(difference[:, -1])  # at the end 1 + L has gone to 1
-    poles = cloud.unstable_poles + (cloud.integrators + integral) / 2 - turned / np.pi
-    return np.where(poles < 0.5, 1 / np.abs(difference).min(axis=1), np.inf)

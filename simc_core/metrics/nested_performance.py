@@ -1,5 +1,6 @@
 """Step metrics of nested loops over an infinite horizon: of y_N and u_1, for unit steps of r and of every d_i."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,7 +8,10 @@ import numpy as np
 from simc_core.certificate.verdict import stability
 from simc_core.errors import NotStable
 from simc_core.loops.nested import NestedLoops
-from simc_core.metrics.step_metrics import StepMetrics, Steps, metrics_of
+from simc_core.loops.on_demand import Later
+from simc_core.metrics.step_metrics import Steps, metrics_of
+from simc_core.metrics.step_quality import Known, known_of, quality_of_steps
+from simc_core.metrics.step_records import StepMetrics, StepQuality
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.simulate_nested import time_scale
@@ -56,8 +60,16 @@ def nested_performance(loop: NestedLoops) -> NestedPerformance:
     offset = np.abs(right[-1, 0] - np.array([1.0] + [0.0] * N))
     if np.any(offset > LARGEST_OFFSET * np.max(np.abs(right[:, 0]), axis=0)):
         raise NotStable(f"IAE needs loops that settle without offset, found {float(np.max(offset)):.4g}")
-    setpoint, *disturbances = metrics_of(_steps(pieces.edges, y_and_u))
+    steps = metrics_of(_steps(pieces.edges, y_and_u))
+    Later(_quality, loop, [known_of(step) for step in steps]).attach(steps)
+    setpoint, *disturbances = steps
     return NestedPerformance(setpoint, tuple(disturbances))
+
+
+def _quality(loop: NestedLoops, known: Sequence[Known]) -> list[StepQuality]:
+    """What StepMetrics has on demand."""
+    pieces, N = _to_rest(loop), len(loop.blocks)
+    return quality_of_steps(_steps(pieces.edges, pieces.coefficients[:, :, [N - 1, N]]), known)
 
 
 def _steps(edges: np.ndarray, y_and_u: np.ndarray) -> Steps:

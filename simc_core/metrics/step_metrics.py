@@ -16,8 +16,10 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.metrics.piece_zeros import SLOPE, LevelCrossings, Turns, crossings
+from simc_core.metrics.step_records import StepMetrics
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.pieces import ENDS
+from simc_core.simulation.one_delay.unit_responses import UnitResponses
 
 NOISE = 1e-11  # of the largest value; what changes less in a piece has come to rest, its signs are rounding
 LEVELS = np.array(  # the end, 10 % and 90 %, the band of 2 %; of a load step in units of its peak
@@ -74,39 +76,6 @@ class Steps:
     def alive(self, change: np.ndarray, size: np.ndarray) -> np.ndarray:
         """Whether what changes in a piece is more than rounding of the largest value of the response, (..., m) all."""
         return change > NOISE * np.maximum.reduceat(size, self.first, axis=-1)[..., self.owner]
-
-
-@dataclass(frozen=True, slots=True)
-class StepMetrics:
-    """What is measured on the response to a unit step.
-
-    Attributes
-    ----------
-    IAE, ISE, ITAE : float
-        Integrals of abs(e), e^2 and t abs(e) over all times.
-    TV : float
-        Total variation of u, jumps included, in input units.
-    overshoot : float
-        Of a set-point step, beyond 1 as a fraction; of a load step, beyond 0 on the other side as a fraction of the
-        peak.
-    peak, peak_time : float
-        Largest y of a set-point step, largest abs(y) of a load step (with its sign), and when. A set-point step without
-        overshoot has no peak_time: nan.
-    rise_time : float
-        From 10 % to 90 %, nan for a load step. Times in the user's unit, from the step on.
-    settling_time : float
-        Within 2 % of the step, of the peak for a load step.
-    """
-
-    IAE: float
-    ISE: float
-    ITAE: float
-    TV: float
-    overshoot: float
-    peak: float
-    peak_time: float
-    rise_time: float
-    settling_time: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -216,3 +185,16 @@ def passages(
     np.minimum.at(first, which, times)
     np.maximum.at(last, which, times)
     return first, last
+
+
+def both_steps(course: UnitResponses) -> Steps:
+    """Set-point steps of all tunings, then their load steps."""
+    n, m = len(course.first) - 1, len(course.owner)
+    return Steps(
+        np.concatenate([course.owner, course.owner + n]),
+        np.concatenate([course.begin, course.begin]),
+        np.concatenate([course.length, course.length]),
+        course.coefficients.reshape(2, 2 * m, -1),
+        np.concatenate([course.first[:-1], course.first[:-1] + m]),
+        np.array([1.0, 0.0]).repeat(n),
+    )

@@ -1,20 +1,23 @@
 """Further measures of unit steps, for those who ask: they cost a second search that `performance` does without.
 
+IE = int e: of r - y after a set point, of y after a load
 ITSE = int t e^2                       settling to 1 % and 5 %, as that to 2 % of StepMetrics
 first_arrival  of y at its end       decay ratio   second over first peak beyond the end value, and the period
 largest_u   largest |u|, jumps included              between the two
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from simc_core.loops.loop import Loop
-from simc_core.metrics.performance import both_steps, performance
+from simc_core.loops.static_errors import static_errors
 from simc_core.metrics.piece_zeros import SLOPE, Turns, crossings
-from simc_core.metrics.step_metrics import LEAST_OVERSHOOT, StepMetrics, Steps, passages
+from simc_core.metrics.step_metrics import LEAST_OVERSHOOT, Steps, both_steps, passages
+from simc_core.metrics.step_records import StepMetrics, StepQuality
 from simc_core.simulation.collocation.pieces import ENDS
 from simc_core.simulation.simulate import settled
 
@@ -23,35 +26,6 @@ LEAST_PEAK = 1e-9  # of the first: a second peak below it is rounding
 COEFFICIENTS = len(SLOPE)  # of a piece
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(COEFFICIENTS + 1)
 AT_NODES = chebyshev.chebvander(NODES, COEFFICIENTS - 1).T
-
-
-@dataclass(frozen=True, slots=True)
-class StepQuality:
-    """For a unit step. Times in the user's unit, from the step on.
-
-    Attributes
-    ----------
-    ITSE : float
-        int t e^2, in output units squared and time squared.
-    settling_1, settling_5 : float
-        As StepMetrics.settling_time, to 1 % and 5 %.
-    first_arrival : float
-        When y first passes its end after a set-point step; nan where it never does, and after a load.
-    decay_ratio : float
-        Second peak over the first; nan without overshoot, 0 where there is no second peak.
-    period : float
-        From the first peak to the second, nan where there is none.
-    largest_u : float
-        Largest abs(u), in input units.
-    """
-
-    ITSE: float
-    settling_1: float
-    settling_5: float
-    first_arrival: float
-    decay_ratio: float
-    period: float
-    largest_u: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,39 +42,29 @@ class Quality:
     disturbance: StepQuality
 
 
-def step_quality(loop: Loop) -> Quality:
-    """ITSE, settling to 1 % and 5 %, first arrival, decay ratio and period, largest u; the dead time is exact.
+@dataclass(frozen=True, slots=True)
+class Known:
+    """What StepMetrics knows already."""
 
-    Parameters
-    ----------
-    loop : Loop
-        A plant under feedback.
-
-    Returns
-    -------
-    Quality
-        Of unit steps of set point and load.
-
-    Raises
-    ------
-    NotStable
-        As `performance` does.
-
-    Examples
-    --------
-    Without dead time SIMC leaves 1 - e^{-t/tau_c}, which is within 5 % after tau_c ln 20:
-
-    >>> from simc_core import Loop, Plant, SeriesPid, step_quality
-    >>> found = step_quality(Loop(Plant(1, 0, (8,)), SeriesPid(4, 8)))
-    >>> round(found.setpoint.settling_5, 4)
-    5.9915
-    """
-    known = performance(loop)
-    steps = both_steps(settled(loop))
-    return Quality(*_measured(steps, (known.setpoint, known.disturbance)))
+    peak: float
+    overshoot: float
 
 
-def _measured(steps: Steps, known: tuple[StepMetrics, StepMetrics]) -> list[StepQuality]:
+def known_of(metrics: StepMetrics) -> Known:
+    """Of one step."""
+    return Known(metrics.peak, metrics.overshoot)
+
+
+def quality_of(loop: Loop, known: Sequence[Known]) -> list[StepQuality]:
+    """Of unit steps of set point and load; IE is exact, from low frequencies."""
+    rest = static_errors(loop)
+    exact = (rest.IE_setpoint, rest.IE_load)
+    measured = quality_of_steps(both_steps(settled(loop)), known)
+    return [replace(each, IE=IE) for each, IE in zip(measured, exact, strict=True)]
+
+
+def quality_of_steps(steps: Steps, known: Sequence[Known]) -> list[StepQuality]:
+    """Of responses that come to rest."""
     m, rows = len(steps.owner), steps.y_and_u.reshape(-1, COEFFICIENTS)
     ends = ENDS @ rows.T
     size = np.abs(steps.y_and_u)
@@ -111,21 +75,25 @@ def _measured(steps: Steps, known: tuple[StepMetrics, StepMetrics]) -> list[Step
     of_y = Turns(turns.row[:k], turns.interval[:k], turns.x[:k], values[:k])
     largest_u = _largest(steps, ends[:, m:], turns.row[k:] - m, values[k:])
     settling, arrival = _times(steps, rows[:m], ends[1, :m], of_y, known)
-    ITSE = _itse(steps, rows[:m])
+    IE, ITSE = _integrals(steps, rows[:m])
     found = []
     for i, metrics in enumerate(known):
-        ratio, period = _decay(*_extremes(steps, ends[:, :m], of_y, i), peak=metrics.peak if i else math.inf)
-        reached = float(arrival[i]) if not i and metrics.overshoot > LEAST_OVERSHOOT else math.nan
+        setpoint = steps.target[i] != 0
+        ratio, period = _decay(*_extremes(steps, ends[:, :m], of_y, i), peak=math.inf if setpoint else metrics.peak)
+        reached = float(arrival[i]) if setpoint and metrics.overshoot > LEAST_OVERSHOOT else math.nan
         within_1, within_5 = settling[:, i].tolist()
-        found.append(StepQuality(ITSE[i], within_1, within_5, reached, ratio, period, largest_u[i]))
+        found.append(StepQuality(IE[i], ITSE[i], within_1, within_5, reached, ratio, period, largest_u[i]))
     return found
 
 
-def _itse(steps: Steps, y: np.ndarray) -> list[float]:
-    e = y @ AT_NODES - steps.target[steps.owner][:, None]
+def _integrals(steps: Steps, y: np.ndarray) -> list[list[float]]:
+    """IE and ITSE."""
+    target = steps.target[steps.owner]
+    e = y @ AT_NODES - target[:, None]
     half = steps.length / 2
     t = steps.begin[:, None] + half[:, None] * (NODES + 1)
-    return np.add.reduceat(half * ((t * e**2) @ WEIGHTS), steps.first).tolist()
+    pieces = np.array([half * (1 - 2 * target) * (e @ WEIGHTS), half * ((t * e**2) @ WEIGHTS)])
+    return np.add.reduceat(pieces, steps.first, axis=1).tolist()
 
 
 def _largest(steps: Steps, ends: np.ndarray, row: np.ndarray, turned: np.ndarray) -> list[float]:
@@ -135,11 +103,11 @@ def _largest(steps: Steps, ends: np.ndarray, row: np.ndarray, turned: np.ndarray
 
 
 def _times(
-    steps: Steps, y: np.ndarray, right: np.ndarray, turns: Turns, known: tuple[StepMetrics, StepMetrics]
+    steps: Steps, y: np.ndarray, right: np.ndarray, turns: Turns, known: Sequence[Known]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Settling times, (bands, responses), and the first time at the end value."""
     sides = np.array([side * band for band in BANDS for side in (-1.0, 1.0)])
-    height = np.array([1.0, abs(known[1].peak)])
+    height = np.where(steps.target != 0, 1.0, [abs(each.peak) for each in known])
     levels = np.concatenate([steps.target[None], steps.target + sides[:, None] * height])[:, steps.owner]
     found = crossings(y, levels, turns)
     first, last = passages(steps, found, levels, right)

@@ -41,6 +41,7 @@ SOURCES = {
     "robustness constraints.",
     "R69": "A. A. Rovira, P. W. Murrill and C. L. Smith: Tuning controllers for setpoint changes. Instruments and "
     "Control Systems 42 (1969) 67-69.",
+    "RC00": "Collection of texts on PID tuning (in Russian); authors and year not told; as this project received it.",
     "RMS86": "D. E. Rivera, M. Morari and S. Skogestad: Internal Model Control. 4. PID Controller Design. Industrial & "
     "Engineering Chemistry Process Design and Development 25 (1986) 252-265. "
     "https://doi.org/10.1021/i200032a041",

@@ -17,9 +17,10 @@ from scipy.optimize import brentq, minimize_scalar
 
 from simc_core.algebra.factors import Factored
 from simc_core.loops.frequency_grid import omega_grid
+from simc_core.loops.frequency_response import open_loop
 from simc_core.loops.loop import Loop
-from simc_core.sensitivity.log_response import FactoredResponse
-from simc_core.sensitivity.margins import margins
+from simc_core.loops.nested import NestedLoops
+from simc_core.sensitivity.log_response import Closed, Ends, FactoredResponse, Response, Series
 
 HALF_POWER = math.sqrt(0.5)
 SMALLEST_L = math.sqrt(2) - 1
@@ -54,55 +55,55 @@ class Bandwidth:
 NO_BANDWIDTH = Bandwidth(math.nan, math.nan, math.nan, math.nan)
 
 
-def bandwidth(loop: Loop) -> Bandwidth:
-    """Bandwidths of S and T, and the largest |KS|; all nan where the loop is not stable.
-
-    Parameters
-    ----------
-    loop : Loop
-        A plant under feedback, dead time exact.
-
-    Returns
-    -------
-    Bandwidth
-        Frequencies in rad per time unit.
-
-    References
-    ----------
-    [RMS86]
-
-    Examples
-    --------
-    >>> from simc_core import Loop, Plant, SeriesPid, bandwidth
-    >>> found = bandwidth(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)))
-    >>> round(found.omega_bS, 4), round(found.omega_bT, 4)
-    (0.3554, 1.1243)
-    """
-    judged = margins(loop)
-    if not judged.stable:
-        return NO_BANDWIDTH
-    L, C = loop.L, loop.controller.factored
-    marks = (judged.omega_c, judged.omega_180, judged.omega_Ms, judged.omega_Mt)
-    omega = _grid(L, C, marks)
-    response = L(1j * omega)
-    at_S = _crossing(omega, np.abs(1 / (1 + response)), lambda x: float(abs(1 / (1 + L(1j * x)))), first=True)
-    KS, omega_KS = _peak(omega, L, C, loop.plant.k if not loop.plant.integrators else math.inf)
-    return Bandwidth(at_S, _last_of_T(omega, response, L), KS, omega_KS)
+def bandwidth_of(loop: Loop | NestedLoops, marks: tuple[float, ...]) -> tuple[Bandwidth]:
+    """Of a loop known to be stable. marks: frequencies of its margins."""
+    reach = _reach(loop)
+    omega = _grid(reach, marks)
+    response = reach.L(omega)
+    at_S = _crossing(omega, np.abs(1 / (1 + response)), lambda x: float(abs(1 / (1 + reach.at(x)))), first=True)
+    return (Bandwidth(at_S, _last_of_T(omega, response, reach), *_peak(omega, reach)),)
 
 
-def _grid(L: Factored, C: Factored, marks: tuple[float, ...]) -> np.ndarray:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Reach:
+    """L on the imaginary axis, its ends, the factors whose corners count, and the controller that sees y."""
+
+    L: Callable[[np.ndarray], np.ndarray]
+    ends: Ends
+    factors: list[Factored]
+    C: Factored
+
+    def at(self, omega: float) -> complex:
+        """L there."""
+        return complex(self.L(np.array([omega]))[0])
+
+
+def _reach(loop: Loop | NestedLoops) -> _Reach:
+    if isinstance(loop, Loop):
+        L, C = loop.L, loop.controller.factored
+        return _Reach(lambda omega: L(1j * omega), FactoredResponse(L), [L, C], C)
+    C = loop.outermost.factored
+    return _Reach(lambda omega: open_loop(loop, 1j * omega), _ends(loop), [*loop.terms, C], C)
+
+
+def _ends(loop: NestedLoops) -> Response:
+    own = FactoredResponse(loop.own)
+    return own if loop.inside is None else Series(own, Closed(_ends(loop.inside), np.zeros(0)))
+
+
+def _grid(reach: _Reach, marks: tuple[float, ...]) -> np.ndarray:
     """The grid of figures, on to where |L| is small, with every turn of the dead time."""
-    omega = omega_grid([L, C], marks)
+    omega, theta = omega_grid(reach.factors, marks), reach.ends.theta
     end = float(omega[-1])
-    if L.relative_degree > 0:
+    if reach.ends.at_infinity.power < 0:
         for _ in range(DOUBLINGS):
-            if abs(L(1j * end)) < SMALLEST_L / 2:
+            if abs(reach.at(end)) < SMALLEST_L / 2:
                 break
             end *= 2
     parts = [omega, np.geomspace(omega[-1], end, 200)]
-    if L.theta:
-        steps = min(int(end * L.theta / PHASE_STEP), MOST_NODES)
-        parts.append(PHASE_STEP / L.theta * np.arange(1, steps + 1))
+    if theta:
+        steps = min(int(end * theta / PHASE_STEP), MOST_NODES)
+        parts.append(PHASE_STEP / theta * np.arange(1, steps + 1))
     return np.unique(np.concatenate(parts))
 
 
@@ -118,43 +119,47 @@ def _crossing(omega: np.ndarray, size: np.ndarray, at: Callable[[float], float],
     )
 
 
-def _last_of_T(omega: np.ndarray, response: np.ndarray, L: Factored) -> float:
-    if L.relative_degree == 0:
-        ratio = abs(FactoredResponse(L).at_infinity[0])
-        if ratio >= SMALLEST_L if L.theta else ratio / (1 + ratio) >= HALF_POWER:
-            return math.inf
+def _last_of_T(omega: np.ndarray, response: np.ndarray, reach: _Reach) -> float:
+    gain, power = reach.ends.at_infinity
+    if power == 0 and (abs(gain) >= SMALLEST_L if reach.ends.theta else abs(gain / (1 + gain)) >= HALF_POWER):
+        return math.inf
     size = np.abs(response / (1 + response))
-    return _crossing(omega, size, lambda x: float(abs(1 - 1 / (1 + L(1j * x)))), first=False)
+    return _crossing(omega, size, lambda x: float(abs(1 - 1 / (1 + reach.at(x)))), first=False)
 
 
-def _peak(omega: np.ndarray, L: Factored, C: Factored, at_rest: float) -> tuple[float, float]:
-    """Largest |KS| and where. at_rest: G(0), math.inf for an integrating plant."""
+def _peak(omega: np.ndarray, reach: _Reach) -> tuple[float, float]:
+    """Largest |KS| and where."""
 
     def size(x: np.ndarray) -> np.ndarray:
-        return np.abs(C(1j * x) / (1 + L(1j * x)))
+        return np.abs(reach.C(1j * x) / (1 + reach.L(x)))
 
-    if C.relative_degree < 0:
+    if reach.C.relative_degree < 0:
         return math.inf, math.inf
     values = size(omega)
     i = int(values.argmax())
     best = float(values[i]), float(omega[i])
     if 0 < i < len(omega) - 1:
         found = minimize_scalar(
-            lambda x: -float(size(x)),
+            lambda x: -float(size(np.array([x]))[0]),
             bounds=(omega[i - 1], omega[i + 1]),
             method="bounded",
             options={"xatol": 1e-9 * omega[i]},
         )
         best = max(best, (-float(found.fun), float(found.x)))
-    if C.relative_degree == 0:
-        best = max(best, (_at_infinity(L, C), math.inf))
-    integral = any(abs(pole) == 0 for pole in C.poles)
-    return max(best, (1 / abs(at_rest), 0.0)) if integral and math.isfinite(at_rest) else best
+    return max(best, (_at_infinity(reach), math.inf), (_at_rest(reach), 0.0))
 
 
-def _at_infinity(L: Factored, C: Factored) -> float:
+def _at_infinity(reach: _Reach) -> float:
     """The supremum of |KS| beyond all corners."""
-    gain, loop = abs(FactoredResponse(C).at_infinity[0]), abs(FactoredResponse(L).at_infinity[0])
-    if L.relative_degree > 0:
+    if reach.C.relative_degree > 0:
+        return 0.0
+    gain, (loop, power) = abs(FactoredResponse(reach.C).at_infinity.gain), reach.ends.at_infinity
+    if power < 0:
         return gain
-    return gain / (1 - loop) if L.theta else gain / (1 + loop)
+    return gain / (1 - abs(loop)) if reach.ends.theta else gain / abs(1 + loop)
+
+
+def _at_rest(reach: _Reach) -> float:
+    """|KS| at omega = 0 where the controller integrates: the gain of the plant, inverted, or nothing."""
+    (gain, power), (loop, of_loop) = FactoredResponse(reach.C).at_zero, reach.ends.at_zero
+    return abs(gain / loop) if power < 0 and power == of_loop else 0.0

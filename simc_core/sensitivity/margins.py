@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from simc_core.certificate.verdict import Stability, stability, stability_many
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
+from simc_core.loops.on_demand import Later
+from simc_core.sensitivity.bandwidth import Bandwidth, bandwidth_of
 from simc_core.sensitivity.crossings import Crossings, search, search_many
 from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.sensitivity.margins_of_response import NOT_STABLE, Margins, margins_from, margins_of
@@ -49,7 +51,7 @@ def margins(loop: Loop | CascadeLoop | NestedLoops) -> Margins:
         case Loop():
             return margins_many([loop], [stability(loop)])[0]
         case NestedLoops():
-            return margins_of(nested_response(loop)) if stability(loop).sound else NOT_STABLE
+            return _with_bandwidth(loop, margins_of(nested_response(loop))) if stability(loop).sound else NOT_STABLE
         case CascadeLoop():
             return margins(loop.nested)
         case _:
@@ -128,5 +130,38 @@ def margins_many(loops: Sequence[Loop], verdicts: Sequence[Stability] | None = N
     responses = [FactoredResponse(loops[i].L) for i in stable]
     found = [NOT_STABLE] * len(loops)
     for i, response, crossed in zip(stable, responses, search_many(responses), strict=True):
-        found[i] = margins_from(response, crossed)
+        found[i] = _with_bandwidth(loops[i], margins_from(response, crossed))
+    return found
+
+
+def bandwidth(loop: Loop | CascadeLoop | NestedLoops) -> Bandwidth:
+    """Bandwidths of S and T, and the largest |KS|; all nan where the loop is not stable.
+
+    Parameters
+    ----------
+    loop : Loop, CascadeLoop or NestedLoops
+        Dead time exact. Of nested loops, the outermost one with the others closed.
+
+    Returns
+    -------
+    Bandwidth
+        Frequencies in rad per time unit. `margins` has the same numbers.
+
+    References
+    ----------
+    [RMS86]
+
+    Examples
+    --------
+    >>> from simc_core import Loop, Plant, SeriesPid, bandwidth
+    >>> found = bandwidth(Loop(Plant(1, 1, (8,)), SeriesPid(4, 8)))
+    >>> round(found.omega_bS, 4), round(found.omega_bT, 4)
+    (0.3554, 1.1243)
+    """
+    return margins(loop).bandwidth
+
+
+def _with_bandwidth(loop: Loop | NestedLoops, found: Margins) -> Margins:
+    marks = (found.omega_c, found.omega_180, found.omega_Ms, found.omega_Mt)
+    Later(bandwidth_of, loop, marks).attach([found])
     return found

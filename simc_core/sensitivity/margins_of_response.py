@@ -10,6 +10,8 @@ omega_180 belongs to GM, omega_c to PM_deg, omega_Ms and omega_Mt to the peaks. 
 the largest relative change of k, and the largest change of theta, that the loop survives.
 A limit that does not exist is math.inf, its frequency math.nan. Margins of a loop that is not stable mean
 nothing: they are all math.nan.
+
+omega_bS, omega_bT, max_KS and omega_KS are in bandwidth.py: they cost more than the rest, and wait until asked for.
 """
 
 import math
@@ -17,13 +19,17 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from simc_core.loops.on_demand import OnDemand
+from simc_core.sensitivity.bandwidth import NO_BANDWIDTH, Bandwidth
 from simc_core.sensitivity.crossings import Crossings, search
 from simc_core.sensitivity.log_response import Ends, Response
 
 
 @dataclass(frozen=True, slots=True)
-class Margins:
+class Margins(OnDemand[Bandwidth]):
     """Margins and peaks of a loop; the module docstring defines them. nan everywhere where the loop is not stable.
+
+    Computed when asked for, nan of a sampled loop: `omega_bS`, `omega_bT`, `max_KS`, `omega_KS`.
 
     Attributes
     ----------
@@ -52,6 +58,31 @@ class Margins:
     omega_Ms: float
     omega_Mt: float
     stable: bool
+
+    @property
+    def bandwidth(self) -> Bandwidth:
+        """All of these."""
+        return self._asked(NO_BANDWIDTH)
+
+    @property
+    def omega_bS(self) -> float:
+        """Bandwidth of S: where abs(S) rises through 1/sqrt 2 for the first time, in rad per time unit."""
+        return self.bandwidth.omega_bS
+
+    @property
+    def omega_bT(self) -> float:
+        """Bandwidth of T: where abs(T) falls through 1/sqrt 2 for the last time, in rad per time unit."""
+        return self.bandwidth.omega_bT
+
+    @property
+    def max_KS(self) -> float:
+        """Largest abs(K S), from noise in y to u, in input units per output unit."""
+        return self.bandwidth.max_KS
+
+    @property
+    def omega_KS(self) -> float:
+        """Where that is, in rad per time unit."""
+        return self.bandwidth.omega_KS
 
 
 SAME_LIMIT = 1e-12  # relative: gain margins, or peaks, that differ by rounding alone

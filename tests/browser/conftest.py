@@ -1,5 +1,6 @@
 """Real Chromium against a real server. A test fails on a browser error and on any request to another host."""
 
+import os
 import shutil
 from collections.abc import Callable, Iterator
 
@@ -89,3 +90,8 @@ def open_page(request, server, chromium, idle_tabs) -> Iterator[Callable[..., Pa
             tab.clean(server)
             idle_tabs.append(tab)
     assert not faults, "\n".join(faults)
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """Half as many again as there are cores: what waits for a page to come to rest leaves them idle."""
+    return max(1, 3 * (os.cpu_count() or 1) // 2)

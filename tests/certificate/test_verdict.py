@@ -241,12 +241,16 @@ def winding_of_samples(terms: list[Factored]) -> int:
 def test_600_random_loops_against_the_generator():
     """The rightmost eigenvalues of the discretised generator: another principle, another representation."""
     rng = np.random.default_rng(1)
-    counted = {"stable": 0, "unstable": 0}
+    counted = {"stable": 0, "unstable": 0, "with decay": 0}
     for _ in range(600):
         loop = third_unstable_loop(rng)
         values = rightmost(loop.L)
         found = stability(loop)
         counted[found.verdict] += 1
+        if found.decay:
+            counted["with decay"] += 1
+            assert found.verdict == "stable"
+            assert np.all(values.real < -found.decay * (1 - 1e-6)), loop
         if found.neutral > 1:  # countless, of which the discretisation has the first few
             assert found.unstable_poles == math.inf
             assert np.any(values.real > 0)

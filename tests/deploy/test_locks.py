@@ -28,7 +28,7 @@ def test_every_package_has_the_hashes_of_its_files(lock):
 
 
 def test_what_runs_is_what_the_list_asks_for():  # else: make lock
-    wanted = dict(line.split("==") for line in (ROOT / "requirements.txt").read_text().split())
+    wanted = dict(re.findall(r"^([^=\n]+)==([^\s;]+)", (ROOT / "requirements.txt").read_text(), re.MULTILINE))
     locked = pins("requirements.lock")
     assert {name: locked[name] for name in wanted} == {name: {version} for name, version in wanted.items()}
 

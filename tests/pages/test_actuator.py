@@ -8,7 +8,7 @@ import pytest
 from pages.common.session import links
 from pages.common.studies.single import present_study, time_responses
 
-from .tools import address, run_page, texts
+from .tools import address, run_page, texts, unfold
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1
 VIEWS = ("Live", "Figures", "Bode of L", "Model error", "As built", "Compare")
@@ -126,6 +126,7 @@ def test_the_range_of_the_loop_sheet_is_one_click():
     app.button("range_of_OP").click().run()
     assert (address(app)["u_min"], address(app)["u_max"]) == ("-45", "55")
     assert "range_of_OP" not in [button.key for button in app.button]
+    unfold(app, "sheet")
     app.text_input("widget_OP_now").set_value("60").run()  # the valve is the same, the limits stay on its scale
     assert (address(app)["u_min"], address(app)["u_max"]) == ("-60", "40")
 
@@ -137,12 +138,12 @@ def test_a_load_or_a_set_point_that_is_nothing_leaves_every_view_whole(view):
 
 
 def test_heights_and_times_are_fields_and_ramps_are_offered_for_a_level():
-    app = opened("Bode of L")
+    app = unfold(opened("Bode of L"), "excitation")
     app.text_input("widget_r").set_value("-2,5").run()
     app.text_input("widget_d_time").set_value("60").run()
     assert (address(app)["r"], address(app)["d_time"]) == ("-2.5", "60")
     assert "widget_r_ramp" not in [field.key for field in app.text_input]
-    app = run_page("tuning", "Live", plant="0.05 exp(-2s)/s", unit="min")
+    app = unfold(run_page("tuning", "Live", plant="0.05 exp(-2s)/s", unit="min"), "excitation")
     assert app.text_input("widget_d_ramp").label == "Load over [min]"
     app.text_input("widget_d_ramp").set_value("30").run()
     assert address(app)["d_ramp"] == "30"
@@ -163,7 +164,7 @@ def test_the_fastest_move_is_emptied_again_and_follows_the_time_unit():
     app = opened(unit="s", rate_limit="0.5", dead_band="0.1", backlash="0.05")
     assert "fastest move 0.5" in texts(app)
     assert app.text_input(key="widget_rate_limit").value == "0.5"
-    app.selectbox(key="sheet_unit").set_value("min").run()
+    unfold(app, "sheet").selectbox(key="sheet_unit").set_value("min").run()
     assert float(address(app)["rate_limit"]) == pytest.approx(30)
     app.text_input(key="widget_rate_limit").set_value("").run()
     assert "rate_limit" not in address(app)
@@ -176,7 +177,7 @@ def test_the_set_point_stops_at_its_limit_and_rises_at_its_rate():
     plain, _ = links.decode({"plant": EXAMPLE, "r": "1.5", "r_ramp": "6"})
     both = [time_responses([present_study(each)], each.excitation)[0] for each in (limited, plain)]
     assert (both[0].y == both[1].y).all()
-    app = opened("Bode of L", r="2", r_high="1.5", r_rate="0.25")
+    app = unfold(opened("Bode of L", r="2", r_high="1.5", r_rate="0.25"), "excitation")
     assert "The set point stops at 1.5" in texts(app)
     app.text_input(key="widget_r_high").set_value("-1").run()
     assert "Highest set point must be ≥ 0" in app.error[0].value

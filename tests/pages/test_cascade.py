@@ -17,7 +17,7 @@ from simc_core import Plant, Scenario, simulate
 from simc_core.cascade.pairs import ROWS
 from tests.oracles.random_plants import random_plants
 
-from .tools import address, copyables, run_page, texts
+from .tools import address, copyables, run_page, texts, unfold
 
 UNSTABLE = "exp(-s)/(20s-1)"
 # cascade.md: lambda inside and outside, then Ca and Cb (k, ki, kd) as printed
@@ -337,7 +337,7 @@ def test_each_view_is_made_alone():
 
 def test_the_plant_of_the_other_pages_can_be_taken():
     app = opened(plant="3 exp(-2s)/(7s+1)", order="1")
-    app.button(key="take_Ga").click().run()
+    unfold(app, "enter_Ga").button(key="take_Ga").click().run()
     assert "7" in address(app)["Ga"]
 
 

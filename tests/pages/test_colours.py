@@ -64,6 +64,9 @@ def test_small_text_has_four_and_a_half_to_one(name):
         assert contrast(rgb(text), rgb(background)) >= 7
         assert contrast(over(text, background, CAPTION), rgb(background)) >= 4.5
     assert contrast(rgb("#FFFFFF"), rgb(THEME[name]["primaryColor"])) >= 4.5  # words on the primary button
+    assert THEME[name]["linkColor"] == palette.CHOSEN[name == "dark"]
+    chosen_on = over(THEME[name]["primaryColor"], page, 0.1)  # the ground of a chosen segment
+    assert contrast(rgb(palette.CHOSEN[name == "dark"]), chosen_on) >= 4.5
 
 
 @pytest.mark.parametrize("page", PAGES.values())

@@ -24,7 +24,15 @@ def test_the_model_of_the_literature_is_on_the_screen_with_its_story():
     assert r"G_r(s) = \frac{e^{-7 s}}{8 s + 1}" in text  # tau1 8, theta 7
     assert r"\theta = 3 + 2 + 2 = 7" in text
     assert r"\tau_1 = 6 + \frac{4}{2} = 8" in text
-    assert len(app.get("plotly_chart")) == 4  # budget, step, Bode, error
+    assert len(app.get("plotly_chart")) == 2  # budget, step; Bode and error when they are opened
+
+
+@pytest.mark.parametrize(
+    ("view", "label"), [("Bode", "Bode diagrams"), ("Error over frequency", "Relative model error")]
+)
+def test_the_other_comparisons_are_drawn_when_they_are_opened(view, label):
+    app = run_page("half_rule", view, "comparison")
+    assert label in app.get("plotly_chart")[1].proto.alt
 
 
 def test_order_two_sampling_period_and_rules_change_the_model():

@@ -13,7 +13,7 @@ from pages.common.session.design import Design, Tuning
 from pages.common.session.loops import Entry, Loops
 from simc_core import Plant, parse_plant
 from simc_core.plants.examples import EVERYDAY, EXAMPLES
-from tests.pages.tools import address, run_app, run_page, texts
+from tests.pages.tools import address, run_app, run_page, texts, unfold
 
 PLACES = ("home", "plant", "half_rule", "tuning", "accuracy")
 
@@ -26,7 +26,7 @@ def test_every_page_runs_alone_and_keeps_the_link(place):
 
 
 def test_home_offers_every_example_and_takes_one():
-    app = run_app()
+    app = unfold(run_app(), "papers")
     assert len([button for button in app.button if button.key and button.key.startswith("example_")]) == len(
         EVERYDAY
     ) + len(EXAMPLES)

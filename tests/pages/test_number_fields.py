@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from pages.common.session.links import number_text
 from simc_core import parse_plant
 from simc_core.numbers import read_number
-from tests.pages.tools import address, run_page, texts
+from tests.pages.tools import address, run_page, texts, unfold
 
 PLANT = "2 exp(-3 s)/((20 s + 1) (4 s + 1))"
 TYPED = {  # what is typed, and the number meant
@@ -24,6 +24,8 @@ REFUSED = {"1,234": "two ways", "abc": "one number", "1..5": "one number", "": "
 
 def opened(page: str, view: str, tabs: str, way: str = "", **parameters: str):
     app = run_page(page, view, tabs, plant=PLANT, **parameters)
+    if page == "tuning":
+        unfold(app, "excitation")
     if way:
         app.segmented_control("plant_way").set_value(way).run()
     return app
@@ -46,6 +48,10 @@ FIELDS = {
     "k": ("plant", "", "views", "Factors", "plant_factors_k", None),
     "theta": ("plant", "", "views", "Polynomials", "plant_polynomials_theta", None),
     "parameter": ("plant", "", "views", "k, θ, τ", "plant_parameters_tau2", None),
+}
+FOLDED = {
+    "tuning": ("change_plant", "literature", "now", "excitation"),
+    "cascade": ("enter_Ga", "enter_Gb"),
 }
 MORE = {"tau_c_inner": {"tau_c_inner": "2"}, "N_outer": {"method": "synthesis"}}
 OPTIONAL = {"u_max", "T_t", "parameter"}
@@ -162,7 +168,7 @@ def test_what_cannot_be_used_stays_while_other_fields_change():
 def test_another_design_brings_its_own_number():
     app = run_page("tuning", "Figures", plant=PLANT, tau_c="3")
     app.text_input(key="tau_c_exact").set_value("abc").run()
-    app.button(key="preset_tight").click().run()
+    unfold(app, "literature").button(key="preset_tight").click().run()
     assert not app.error
     assert float(app.text_input(key="tau_c_exact").value) == 3 + 4 / 2  # theta of the half rule
 
@@ -257,7 +263,7 @@ def test_parameters_of_a_plant_that_is_no_such_model_begin_empty():
 )
 def test_names_of_widgets_are_words_and_not_formulas(page, view, tabs, way, parameters):
     """Screen readers read the name of a field, and the options of a choice, as they are written."""
-    app = run_page(page, view, tabs, **parameters)
+    app = unfold(run_page(page, view, tabs, **parameters), "sheet", *FOLDED.get(page, ()))
     if way:
         app.segmented_control("plant_way").set_value(way).run()
     kinds = ("text_input", "button", "segmented_control", "select_slider", "slider", "checkbox", "selectbox")

@@ -13,7 +13,7 @@ from pages.common.studies.single import study
 from simc_core import IdealPid, InvalidParameter, Plant, SeriesPid, parse_plant
 from simc_core.plants.step_facts import SettlingFacts, SlopeFacts
 from tests.pages.test_links import designs
-from tests.pages.tools import address, run_page, texts
+from tests.pages.tools import address, run_page, texts, unfold
 
 HEATER = Design(Plant(2.2, 20.0, (180.0,)), own=IdealPid(1.2, 240.0), sheet=Sheet(time_unit="s"))
 
@@ -85,7 +85,7 @@ def test_the_gain_of_a_controller_falls_as_that_of_the_plant_grows():
 
 
 def test_a_unit_in_which_a_number_is_out_of_bounds_is_refused_in_words_and_nothing_changes():
-    app = run_page("tuning", plant="exp(-1e6s)/(1e7s+1)", unit="h")
+    app = unfold(run_page("tuning", plant="exp(-1e6s)/(1e7s+1)", unit="h"), "sheet")
     app.selectbox(key="sheet_unit").set_value("ms").run()
     assert not app.exception
     assert address(app)["unit"] == "h"
@@ -93,7 +93,7 @@ def test_a_unit_in_which_a_number_is_out_of_bounds_is_refused_in_words_and_nothi
 
 
 def test_another_unit_converts_what_is_on_the_page_and_says_so():
-    app = run_page("tuning", plant="2.2exp(-20s)/(180s+1)", unit="s")
+    app = unfold(run_page("tuning", plant="2.2exp(-20s)/(180s+1)", unit="s"), "sheet")
     app.selectbox(key="sheet_unit").set_value("min").run()
     assert parse_plant(address(app)["plant"]).lags == (3.0,)
     assert "converted from s to min" in texts(app)

@@ -12,7 +12,7 @@ from pages.common.tuning.readout import strip_html
 from simc_core import parse_plant
 from simc_core.studies.bands import band_of
 
-from .tools import address, copyables, run_page, texts
+from .tools import address, copyables, run_page, texts, unfold
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1
 PANELS = 4  # y, u, Nyquist, |S| and |T|
@@ -100,7 +100,7 @@ def test_the_slider_the_exact_number_and_the_presets_set_one_tau_c():
     app.text_input(key="tau_c_exact").set_value("9.25").run()
     assert address(app)["tau_c"] == "9.25"
     assert copied(app)["Kc"] == pytest.approx(8 / (9.25 + 7))
-    app.button(key="preset_moderate").click().run()
+    unfold(app, "literature").button(key="preset_moderate").click().run()
     assert "tau_c" not in address(app)
     assert address(app)["speed"] == "moderate"  # a choice, which follows the plant
     assert float(app.text_input(key="tau_c_exact").value) == pytest.approx(56)  # max(tau1, 8 theta)
@@ -256,7 +256,7 @@ def test_the_plant_is_changed_on_this_page_and_the_choice_of_speed_stays():
     """tau_c = 2 theta: 2 of e^{-s}/(8 s + 1), 6 of e^{-3s}/(20 s + 1); Kc = tau1/(k (tau_c + theta))."""
     app = tuned(plant="exp(-s)/(8s+1)", speed="2theta")
     assert copied(app)["Kc"] == pytest.approx(8 / 3)
-    app.text_input(key="plant_text_text").set_value("exp(-3s)/(20s+1)").run()
+    unfold(app, "change_plant").text_input(key="plant_text_text").set_value("exp(-3s)/(20s+1)").run()
     assert copied(app)["Kc"] == pytest.approx(20 / 9)
     assert address(app)["speed"] == "2theta"
 

@@ -30,6 +30,21 @@ def _run(script: Path, parameters: dict[str, str], view: str = "", tabs: str = "
     return app
 
 
+def unfold(app: AppTest, *keys: str) -> AppTest:
+    """Open what stands folded on a page: expanders and popovers by their keys, as a click on each does."""
+    for key in keys:
+        app.session_state[key] = True
+        app.run()
+        assert not app.exception, app.exception
+    return app
+
+
+def fold(app: AppTest, key: str) -> AppTest:
+    """And close it."""
+    app.session_state[key] = False
+    return app.run()
+
+
 def address(app: AppTest) -> dict[str, str]:
     """The query parameters, each with its one value."""
     return {name: value[0] if isinstance(value, list) else value for name, value in app.query_params.items()}

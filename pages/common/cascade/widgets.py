@@ -30,14 +30,16 @@ def blocks() -> None:
     """Ga and Gb, each folded away; or a design of the paper."""
     with st.container(horizontal=True, gap="xsmall", key="blocks"):
         for name, label, title in BLOCKS:
-            with st.popover(label, help=f"Enter the {title}"):
-                plant_entry(name, title)
-                st.button(
-                    "Take G of the other pages",
-                    key=f"take_{name}",
-                    on_click=state.change,
-                    kwargs={name: state.plant()},
-                )
+            folded = st.popover(label, help=f"Enter the {title}", key=f"enter_{name}", on_change="rerun")
+            if folded.open:
+                with folded:
+                    plant_entry(name, title)
+                    st.button(
+                        "Take G of the other pages",
+                        key=f"take_{name}",
+                        on_click=state.change,
+                        kwargs={name: state.plant()},
+                    )
     titles = {_title(row): of_row(row) for row in ROWS}
     here = next((title for title, cascade in titles.items() if cascade == state.cascade()), None)
     state.set_widget("pair", here)

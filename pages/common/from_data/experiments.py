@@ -4,14 +4,15 @@ from collections.abc import Callable
 
 import streamlit as st
 
+from pages.common.parts import panel
 from pages.common.parts.number_field import number_field
+from pages.common.parts.sources import linked
 from pages.common.parts.symbols import sentence, symbols
-from pages.common.parts.units import axes_named, time_text, unit_of
+from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.shell import header
 from simc_core import Plant, SeriesPid, SimcError, checks, relay_test, retune_oscillation, setpoint_overshoot
-from simc_core.figures import config
 from simc_core.figures.trend import relay_figure
 from simc_core.notation import latex, number
 
@@ -75,7 +76,9 @@ def _numbers(form: str, fields: Fields, design: Design, optional: tuple[str, ...
 
 def _overshoot(design: Design) -> None:
     """[SS10]: with the loop under P control, one step of the set point with about 30 % overshoot."""
-    st.caption("Put the controller to P, make a step of the set point with about 30 % overshoot, and read off [SS10]:")
+    st.caption(
+        linked("Put the controller to P, make a step of the set point with about 30 % overshoot, and read off [SS10]:")
+    )
     given = _numbers("overshoot", OVERSHOOT, design)
     if not given:
         return
@@ -122,7 +125,7 @@ def _relay(design: Design) -> None:
         return
     figure = relay_figure(found.t, found.y, found.u, HEIGHT)
     alt = "Relay test: y oscillates, u switches between two levels"
-    st.plotly_chart(axes_named(figure, design.sheet), key="figure_relay", config=config("relay test"), alt=alt)
+    panel.show(figure, "relay", alt)
     rows = [
         {"": "Ku", "describing function": number(found.Ku), "exact": number(found.Ku_exact)},
         {

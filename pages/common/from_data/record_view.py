@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common.from_data.work import ends_of, moves_of
+from pages.common.parts.figure_words import in_words
 from pages.common.parts.number_field import number_field
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
@@ -22,14 +23,17 @@ def figure(trend: Trend, design: Design, part: Trend | None, model: Identified |
     """PV over OP, with the model and its residuals where there is one."""
     chosen = design.record
     cut = None if chosen.begin is None and chosen.end is None else _part(trend, design)
-    fitted = None if model is None or part is None else (part.t, model.predicted, model.residuals)
+    fitted = None
+    if model is not None and part is not None:  # of several records this one comes first
+        fitted = part.t, model.predicted[: part.t.size], model.residuals[: part.t.size]
     found = trend_figure(
         trend, cut, chosen.bad, [move.t for move in moves_of(trend)], fitted, HEIGHT if fitted is None else TALL
     )
     name = "PV, OP" if trend.r is None else "PV, SP, OP"
     told = " and the model with its residuals" if fitted else ""
     alt = f"Record of {name} over {number(trend.span)} {trend.units.get('t', '')}{told}"
-    st.plotly_chart(in_units(found, trend), key="figure_trend", config=config("trend"), alt=alt)
+    found = in_units(found, trend)
+    st.plotly_chart(found, key="figure_trend", config=config("trend"), alt=in_words(alt, found))
 
 
 def in_units(found: Figure, trend: Trend) -> Figure:

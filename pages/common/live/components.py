@@ -1,10 +1,11 @@
 """What runs in the browser, registered once: the instruments, and the messages that reach them on the same page."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import streamlit as st
 
+from pages.common.live.kit.packing import pack
 from pages.common.live.modules import bundled
 from pages.common.session import state
 from simc_core.figures import palette
@@ -27,7 +28,14 @@ def _text(*files: Path) -> str:
 tuning = _instrument("tuning")
 cascade = _instrument("cascade")
 hand = _instrument("hand")
+plane = _instrument("plane")
 message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
+
+
+def staged(name: str, panels: Sequence[str], figures: Sequence[str], view: str) -> None:
+    """Leave of the instrument `name`, which is on this page, these panels (none: all) and these numbers."""
+    told = {"kind": "stage", "to": name, "panels": list(panels), "figures": list(figures), "view": view}
+    message(key=f"stage_{name}", data=pack(told, {}))
 
 
 def show(component: Callable, key: str, data: bytes, take: Callable[[Mapping], None]) -> int:

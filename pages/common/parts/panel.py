@@ -5,6 +5,8 @@ from dataclasses import dataclass
 
 import streamlit as st
 
+from pages.common.parts.figure_words import in_words
+from pages.common.parts.ready_figure import ReadyFigure
 from pages.common.parts.units import axes_named
 from pages.common.session import state
 from simc_core.figures import Figure, config
@@ -34,10 +36,14 @@ def field(found: tuple[Panel, ...]) -> None:
 
 
 def show(figure: Figure, key: str, alt: str, picked: Callable[[str], None] | None = None) -> None:
-    """A figure with hover, zoom and SVG export.   picked: called with the key of the widget when a point is clicked."""
+    """A figure with hover, zoom and SVG export.   picked: called with the key of the widget when a point is clicked.
+
+    alt: what it shows, to which the numbers are added for those who do not see it.
+    """
     name = f"figure_{key}"
     pick = {"on_select": lambda: picked(name), "selection_mode": "points"} if picked else {}
-    st.plotly_chart(axes_named(figure, state.design_now().sheet), key=name, config=config(key), alt=alt, **pick)
+    named = axes_named(figure, state.design_now().sheet)
+    st.plotly_chart(ReadyFigure(named), key=name, config=config(key), alt=in_words(alt, named), **pick)
 
 
 def _style(keys: list[str], chosen: int) -> str:

@@ -3,10 +3,9 @@
 import streamlit as st
 
 from pages.common.parts.formula import fitted
-from pages.common.parts.units import axes_named
-from pages.common.session import state
+from pages.common.parts.panel import show
 from simc_core import Plant
-from simc_core.figures import bode_figure, config, plant_step_figure, pole_zero_figure
+from simc_core.figures import bode_figure, plant_step_figure, pole_zero_figure
 from simc_core.notation import latex_number
 from simc_core.plants.step_response import plant_step
 
@@ -31,13 +30,14 @@ def facts(plant: Plant) -> None:
 def figures(plant: Plant) -> None:
     """Step response, pole-zero map and Bode diagram."""
     left, right = st.columns([3, 2])
-    for place, title, figure in (
-        (left, "Step response", plant_step_figure(plant_step(plant), height=HEIGHT)),
-        (right, "Poles and zeros", pole_zero_figure(plant, HEIGHT)),
-        (st, "Bode diagram", bode_figure(plant, height=TALL)),
+    for place, title, key, figure in (
+        (left, "Step response", "plant_step", plant_step_figure(plant_step(plant), height=HEIGHT)),
+        (right, "Poles and zeros", "plant_roots", pole_zero_figure(plant, HEIGHT)),
+        (st.container(), "Bode diagram", "plant_bode", bode_figure(plant, height=TALL)),
     ):
-        place.markdown(f"**{title}**")
-        place.plotly_chart(axes_named(figure, state.design_now().sheet), key=f"plant {title}", config=config(title))
+        with place:
+            st.markdown(f"**{title}**")
+            show(figure, key, f"{title} of the plant")
 
 
 def _roots(roots) -> str:

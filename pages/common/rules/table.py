@@ -1,7 +1,7 @@
 """Rules on one plant, row by row, each computed once for all sessions; and the table made of them. No streamlit."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from threading import Lock
@@ -13,9 +13,11 @@ from pages.common.parts.units import unit_of, with_plain_unit
 from pages.common.session.compared import OPTIMAL, PRESENT, USUAL
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
-from simc_core import RULES, Optimum, Plant, comparison, optimal
-from simc_core.controllers.forms import IController
+from pages.common.studies.measures import MEASURES, Measured, values
+from simc_core import RULES, Loop, Optimum, Performance, Plant, comparison, margins_many, optimal
+from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import SimcError
+from simc_core.metrics.performance import performance_many
 from simc_core.notation import number
 from simc_core.studies.comparison import Row
 from simc_core.studies.optimum import FILTER, scale_of
@@ -115,18 +117,41 @@ def value_of(row: Row, criterion: str) -> float:
     return {"load": row.load, "setpoint": row.setpoint, "J": row.J}[criterion]
 
 
-def frame(rows: list[Row], question: Question, sheet: Sheet) -> pd.DataFrame:
-    """The table: numbers as numbers, so that they sort; columns with their units."""
+def frame(rows: Sequence[Row], question: Question, sheet: Sheet, more: Sequence[str] = ()) -> pd.DataFrame:
+    """The table: numbers as numbers, so that they sort; columns with their units. more: measures that are shown too."""
     left_out = ("kind",) * (len(question.kinds) == 1) + ("τD",) * ("PID" not in question.kinds)
+    units = UNITS | {label: MEASURES[label].unit for label in more}
+    further = _further(question.plant, rows, more) if more else [{}] * len(rows)
     columns: dict[str, list] = {}
-    for row in rows:
-        for name, value in _cells(row, question.Ms is not None).items():
+    for row, measured in zip(rows, further, strict=True):
+        for name, value in _cells(row, question.Ms is not None, measured).items():
             if name not in left_out:
-                columns.setdefault(with_plain_unit(name, unit_of(UNITS.get(name, ""), sheet)), []).append(value)
+                columns.setdefault(with_plain_unit(name, unit_of(units.get(name, ""), sheet)), []).append(value)
     return pd.DataFrame(columns)
 
 
-def _cells(row: Row, equal: bool) -> dict:
+def _further(plant: Plant, rows: Sequence[Row], labels: Sequence[str]) -> list[dict[str, float]]:
+    """Measures of each row, nan where there is no stable loop."""
+    known = _measured(plant, tuple(row.controller for row in rows))
+    return [dict.fromkeys(labels, math.nan) if each is None else values(each, labels) for each in known]
+
+
+@lru_cache(maxsize=8)
+def _measured(plant: Plant, controllers: tuple[Controller | None, ...]) -> list[Measured | None]:
+    """What is known of the stable loops among these."""
+    loops = [Loop(plant, each) for each in controllers if each is not None]
+    judged = margins_many(loops)
+    stable = [loop for loop, found in zip(loops, judged, strict=True) if found.stable]
+    performed = dict(zip(stable, performance_many(stable), strict=True))
+    known = {
+        loop.controller: Measured(loop, found, steps if isinstance(steps := performed[loop], Performance) else None)
+        for loop, found in zip(loops, judged, strict=True)
+        if found.stable
+    }
+    return [known.get(each) if each is not None else None for each in controllers]
+
+
+def _cells(row: Row, equal: bool, further: dict[str, float]) -> dict:
     Kc, tau_I, tau_D = _settings(row)
     known = {} if not equal else {"as published": row.published_Ms, "F": _none_is_nan(row.factor)}
     return {
@@ -143,6 +168,7 @@ def _cells(row: Row, equal: bool) -> dict:
         "behind, %": 100 * (0.0 if abs(row.behind) <= EQUAL else row.behind),
         "TV load": row.TV,
         "high-freq. gain": row.high_frequency_gain,
+        **further,
         "in domain": "" if row.key == OPTIMAL else "yes" if row.in_domain else "no",
         "source": "" if row.key == OPTIMAL else RULES[row.key].source.strip("[]"),
         "remark": row.refusal,

@@ -8,9 +8,9 @@ from fractions import Fraction
 
 from pages.common.session.compared import PRESENT, Compared
 from pages.common.session.home import Home
-from pages.common.session.record import Chosen, Origin
+from pages.common.session.record import MOST_STRUCTURES, Chosen, Origin
 from pages.common.session.sheet import Sheet, one_of, ratio
-from simc_core import BOXES, Actuation, Plant, Scenario, checks
+from simc_core import BOXES, Actuation, Plant, Scenario, Uncertainty, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
@@ -240,6 +240,7 @@ class Design:
     box: what the settings are typed into, a key of BOXES, "" where not told.   home: how they are taken there.
     record: what is chosen of the record on the page From data.
     origin: of a plant that was identified; None for one that came otherwise, or has changed since.
+    uncertainty: what its record leaves open, the model's own structure first; empty without an origin.
     compared: what the page of rules compares.
     """
 
@@ -258,6 +259,7 @@ class Design:
     box: str = ""
     record: Chosen = field(default_factory=Chosen)
     origin: Origin | None = None
+    uncertainty: tuple[Uncertainty, ...] = ()
     compared: Compared = field(default_factory=Compared)
     home: Home = field(default_factory=Home)
 
@@ -271,6 +273,8 @@ class Design:
         object.__setattr__(self, "facts", of_plant(self.facts, self.plant))
         if self.origin is not None and self.origin.plant != self.plant:
             object.__setattr__(self, "origin", None)
+        known = checks.items("uncertainty", self.uncertainty, MOST_STRUCTURES)
+        object.__setattr__(self, "uncertainty", known if self.origin is not None else ())
         if self.tuning.h not in (0.0, self.actuator.h):  # there is one sampling period
             if self.actuator.h:
                 object.__setattr__(self, "tuning", replace(self.tuning, h=self.actuator.h))
@@ -280,7 +284,7 @@ class Design:
 
 # Where the field of each name lies, "" for the design itself. Links and widgets know fields by these names.
 PLACES: dict[str, tuple[str, str]] = {
-    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box", "origin")},
+    **{name: ("", name) for name in ("plant", "facts", "form", "own", "now", "pins", "box", "origin", "uncertainty")},
     "controller": ("", "source"),
     **{name: ("tuning", name) for name in ("order", "h", "tau_c", "b", "filter", "rules", "speed", "tau_F", "rule")},
     **{name: ("sheet", name) for name in ("tag", "note")},
@@ -359,6 +363,7 @@ def in_time_unit(design: Design, unit: str) -> Design:
         plant=plant,
         facts=facts,
         origin=None if design.origin is None else design.origin.rescaled(plant, time),
+        uncertainty=tuple(each.rescaled(time) for each in design.uncertainty),
         tuning=_in_time(design.tuning, time),
         own=None if design.own is None else design.own.rescaled(time),
         now=None if design.now is None else design.now.rescaled(time),

@@ -7,7 +7,7 @@
     pins                                             order~h~tau_c~b~filter~rules~speed~tau_F~rule, or settings;
                                                      separated by !
     example, structure, begin, end, bad              what is chosen of a record on the page From data
-    origin                                           of a plant that was identified there
+    origin, uncertainty                              of a plant that was identified there
     box, rounding, language, exported                what the settings are typed into, or written as
     points, between                                  value~k~theta~tau1~tau2 of a gain schedule, separated by !
     tag, note, unit, PV, PV_unit, PV_low, ...        the loop sheet
@@ -28,7 +28,14 @@ from functools import cache
 from urllib.parse import quote, urlencode
 
 from pages.common.session.design import PLACES, Design, Tuning, get, put
-from pages.common.session.record import bad_of, bad_text, origin_of, origin_text
+from pages.common.session.record import (
+    bad_of,
+    bad_text,
+    origin_of,
+    origin_text,
+    uncertainty_from,
+    uncertainty_text,
+)
 from simc_core import Plant, parse_plant
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
@@ -49,7 +56,7 @@ TEXTS = (
 )
 PLANTS = ("plant", "Ga", "Gb")
 FACTS = ("facts", "Ga_facts", "Gb_facts")
-FIRST_READ = (*SETTINGS, *PLANTS)  # what others refer to
+FIRST_READ = (*SETTINGS, *PLANTS, "origin")  # what others refer to, in this order
 ALWAYS = ("plant", "order")
 FIRST = ("plant", *TUNING_FIELDS, "form", "pins")  # in an address; the others in the order of PLACES
 ORDER = (*FIRST, *(name for name in PLACES if name not in FIRST))
@@ -90,12 +97,16 @@ def decode(parameters: Mapping[str, str]) -> tuple[Design, list[Ignored]]:
     Parameters are taken one by one: a bad one leaves the default and does not spoil the others.
     """
     design, ignored = Design(), []
-    for name, value in sorted(parameters.items(), key=lambda item: item[0] not in FIRST_READ):
+    for name, value in sorted(parameters.items(), key=lambda item: _turn(item[0])):
         try:
             design = _changed(design, name, value)
         except SimcError as error:
             ignored.append(Ignored(name, value, str(error)))
     return design, ignored
+
+
+def _turn(name: str) -> int:
+    return FIRST_READ.index(name) if name in FIRST_READ else len(FIRST_READ)
 
 
 def number_text(value: float | None) -> str:
@@ -140,6 +151,8 @@ def _text(name: str, value) -> str:
         return facts_text(value)
     if name == "origin":
         return origin_text(value)
+    if name == "uncertainty":
+        return uncertainty_text(value)
     if name == "bad":
         return bad_text(value)
     return plain(value) if name in PLANTS else number_text(value)
@@ -158,6 +171,8 @@ def _read(name: str, text: str):
         return settings_of(text)
     if name in FACTS:
         return facts_of(text)
+    if name == "uncertainty":
+        return uncertainty_from(text)
     if name == "bad":
         return bad_of(text)
     try:

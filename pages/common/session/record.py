@@ -4,15 +4,18 @@ A record itself is in no link and no file; what is chosen of it is, and what was
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from simc_core import Plant, checks
+from simc_core import Identified, Plant, Uncertainty, checks, uncertainty_of
 from simc_core.errors import InvalidParameter, SimcError
 from simc_core.identification.estimator.structures import STRUCTURES
 from simc_core.identification.trend import LARGEST_INSTANT
 from simc_core.plants.plant import scaled
 
+MOST_STRUCTURES = 4  # that fit nearly as well, and are kept
+DIGITS = 7  # of the numbers of an uncertainty
 MOST_BAD = 12  # stretches that are left out
 LONGEST_SOURCE = 60  # characters
 LONGEST_KEY = 20
@@ -118,6 +121,50 @@ def origin_of(text: str, plant: Plant) -> Origin:
     return Origin(
         plant, structure, tuple(errors), fit, samples if math.isfinite(samples) else -1, "~".join(rest[count:])
     )
+
+
+def kept_uncertainty(several: Sequence[Identified]) -> tuple[Uncertainty, ...]:
+    """What a record leaves open, in numbers short enough for a link; empty where they are beyond all bounds."""
+    try:
+        found = uncertainty_of(several)[:MOST_STRUCTURES]
+        return tuple(
+            Uncertainty(
+                each.structure,
+                tuple(float(f"{value:.{DIGITS}g}") for value in each.values),
+                tuple(float(f"{value:.{DIGITS}g}") for value in each.covariance),
+                float(f"{each.freedom:.{DIGITS}g}"),
+            )
+            for each in found
+        )
+    except InvalidParameter:
+        return ()
+
+
+def uncertainty_text(found: tuple[Uncertainty, ...]) -> str:
+    """structure~freedom~values~covariance, separated by !."""
+    return "!".join(
+        "~".join([each.structure, *(repr(value).removesuffix(".0") for value in _numbers(each))]) for each in found
+    )
+
+
+def uncertainty_from(text: str) -> tuple[Uncertainty, ...]:
+    """What a text holds. Raises SimcError."""
+    found = []
+    for part in text.split("!"):
+        structure, *rest = part.split("~")
+        if structure not in STRUCTURES:
+            raise SimcError(f"uncertainty begins with one of {', '.join(STRUCTURES)}, found {structure[:20]}")
+        try:
+            freedom, *numbers = (float(each) for each in rest)
+        except ValueError:
+            raise SimcError(f"uncertainty of {structure} is made of numbers separated by ~") from None
+        m = 1 + len(STRUCTURES[structure].lags) + len(STRUCTURES[structure].gains)
+        found.append(Uncertainty(structure, tuple(numbers[:m]), tuple(numbers[m:]), freedom))
+    return tuple(found)
+
+
+def _numbers(each: Uncertainty) -> tuple[float, ...]:
+    return (each.freedom, *each.values, *each.covariance)
 
 
 def bad_text(bad: tuple[tuple[float, float], ...]) -> str:

@@ -14,6 +14,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from time import monotonic
 from typing import Any
+from urllib.parse import urlencode
 
 import streamlit as st
 from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileManager
@@ -32,19 +33,38 @@ ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
 SENT_AGAIN = 5.0  # seconds for which a value put into a widget may be overtaken; the first run of a server is slow
 
 
-def begin() -> Design:
-    """Read the address if it is new, then make it show the design. May be called more than once a run."""
+def begin(beside: tuple[str, ...] = ()) -> Design:
+    """Read the address if it is new, then make it show the design. May be called more than once a run.
+
+    beside: parameters that this page has beside those of the design, see `place`; on other pages they are unknown.
+    """
     given = st.query_params.to_dict()
     if asked := given.pop("view", ""):
         st.session_state["asked_view"] = asked
+    if not beside:
+        st.session_state["place"] = {}
     if given and given != st.session_state.get("address") and not _late(given):
-        design, ignored = links.decode(given)
-        _keep(loops().with_design(design))
-        st.session_state["ignored"] = ignored
-        st.session_state.setdefault("opened", True)  # this visit began with a link
+        if beside:
+            st.session_state["place"] = {name: given.pop(name) for name in beside if name in given}
+        if given:
+            design, ignored = links.decode(given)
+            _keep(loops().with_design(design))
+            st.session_state["ignored"] = ignored
+            st.session_state.setdefault("opened", True)  # this visit began with a link
     st.session_state.setdefault("opened", False)
     _show_in_address()
     return design_now()
+
+
+def place() -> dict[str, str]:
+    """Where a page is, beside the design: the parameters that it told `begin`, as far as there are any."""
+    return st.session_state.setdefault("place", {})
+
+
+def go_to_place(**parameters: str) -> None:
+    """Another place of the same page, which the address shows; none for its beginning."""
+    st.session_state["place"] = parameters
+    _show_in_address()
 
 
 def design_now() -> Design:
@@ -289,7 +309,7 @@ def dismiss_ignored() -> None:
 def address() -> str:
     """The address of this page with the design in it."""
     base = (st.context.url or "").split("?")[0]
-    return f"{base}?{links.query(design_now())}"
+    return f"{base}?{'&'.join([links.query(design_now()), *([urlencode(place())] if place() else [])])}"
 
 
 def parameters() -> dict[str, str]:
@@ -314,7 +334,7 @@ def _late(given: dict[str, str]) -> bool:
 
 
 def _show_in_address() -> None:
-    wanted = links.encode(design_now())
+    wanted = links.encode(design_now()) | place()
     if st.query_params.to_dict() != wanted:
         st.query_params.from_dict(wanted)
     shown = st.session_state.get("address")

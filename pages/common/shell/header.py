@@ -21,10 +21,12 @@ GROUPS = {
     "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
     "Tune": {"tuning": "Tuning", "rules": "Rules", "cascade": "Cascade"},
     "Use": {"take_home": "Take home", "many": "Many loops"},
-    "Learn": {"accuracy": "Accuracy"},
+    "Learn": {"lessons": "Lessons", "accuracy": "Accuracy", "sources": "Sources"},
 }
 TITLES = {name: title for group in GROUPS.values() for name, title in group.items()}
 CHAIN = ("plant", "half_rule", "tuning", "cascade")
+NO_LOOP = ("lessons", "sources")  # pages that are about no loop of one's own
+BESIDE = {"lessons": ("lesson", "step"), "sources": ("source",)}  # parameters of a page beside those of the design
 
 
 def go(place: str) -> None:
@@ -39,8 +41,23 @@ def show(place: str) -> Design:
     """Page settings, the line on top, notices and the sidebar. `place` is a key of TITLES. Returns the design."""
     st.set_page_config(page_title=f"{TITLES[place]} · SIMC", page_icon="🎚️", layout="wide")
     st.html(styles())
-    design = state.begin()
+    design = state.begin(BESIDE.get(place, ()))
+    if place not in NO_LOOP:
+        _line(place, design)
+    _notices()
+    with st.sidebar:
+        loops_menu()
+        sheet_form()
+        _take_along(place)
+    return design
+
+
+def _line(place: str, design: Design) -> None:
+    """What is being worked on."""
     with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
+        if place != "home":  # which has a title of its own
+            named = "unseen" if place in CHAIN else ""  # the chain marks it for the eye
+            st.html(f'<h1 class="{named}">{TITLES[place]}</h1>', width="content")
         if tag := design.sheet.tag:
             st.markdown(exact(tag), width="content")
         if place == "cascade":
@@ -53,12 +70,6 @@ def show(place: str) -> Design:
             st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content", help=about)
         if place in CHAIN:
             chain(place)
-    _notices()
-    with st.sidebar:
-        loops_menu()
-        sheet_form()
-        _take_along(place)
-    return design
 
 
 def chain(place: str, key: str = "chain") -> None:

@@ -18,21 +18,28 @@ RAMP = "Time in which it rises evenly to its height; 0 for a step at once."
 
 
 def excitation(design: Design) -> None:
-    """Fields for it; ramps where they tell more than steps: an integrating plant follows them with an error."""
+    """What is shown, folded; its fields are made when it is opened."""
+    folded = st.expander("Set point and load shown", key="excitation", on_change="rerun")
+    if folded.open:
+        with folded:
+            _fields(design)
+
+
+def _fields(design: Design) -> None:
+    """Heights and times; ramps where they tell more than steps: an integrating plant follows them with an error."""
     asked = design.excitation
-    with st.expander("Set point and load shown"):
+    first, second, under = *st.columns(2, gap="small"), st.container()
+    design_number("r", "Set point step", quantity="PV", place=first, under=under, help=STEP)
+    design_number("d", "Load step", quantity="OP", place=second, under=under, help=LOAD)
+    design_number(
+        "d_time", "Load begins at", quantity="time", optional=True, under=under, placeholder="when r has settled"
+    )
+    if design.plant.integrators or asked.setpoint_ramp or asked.disturbance_ramp:
         first, second, under = *st.columns(2, gap="small"), st.container()
-        design_number("r", "Set point step", quantity="PV", place=first, under=under, help=STEP)
-        design_number("d", "Load step", quantity="OP", place=second, under=under, help=LOAD)
-        design_number(
-            "d_time", "Load begins at", quantity="time", optional=True, under=under, placeholder="when r has settled"
-        )
-        if design.plant.integrators or asked.setpoint_ramp or asked.disturbance_ramp:
-            first, second, under = *st.columns(2, gap="small"), st.container()
-            design_number("r_ramp", "Set point over", quantity="time", place=first, under=under, help=RAMP)
-            design_number("d_ramp", "Load over", quantity="time", place=second, under=under, help=RAMP)
-        with st.popover("Limits of the set point", width="stretch"):
-            for name, label, unit in LIMITS:
-                design_number(name, label, quantity=unit, optional=True, placeholder="none", help=LIMITED)
-        if asked.reached != asked.setpoint:
-            st.caption(f"The set point stops at {number(asked.reached)}, its limit.")
+        design_number("r_ramp", "Set point over", quantity="time", place=first, under=under, help=RAMP)
+        design_number("d_ramp", "Load over", quantity="time", place=second, under=under, help=RAMP)
+    with st.popover("Limits of the set point", width="stretch"):
+        for name, label, unit in LIMITS:
+            design_number(name, label, quantity=unit, optional=True, placeholder="none", help=LIMITED)
+    if asked.reached != asked.setpoint:
+        st.caption(f"The set point stops at {number(asked.reached)}, its limit.")

@@ -9,9 +9,10 @@ from pages.common.parts.panel import show
 from pages.common.parts.symbols import symbols
 from pages.common.parts.units import time_text
 from pages.common.session import state
-from pages.common.session.design import Excitation
+from pages.common.session.design import Design, Excitation
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
+from pages.common.tuning.measured_error_view import measured_error_view
 from simc_core.figures.robustness import band_figure, bundle_figure
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.loops.loop import Loop
@@ -23,9 +24,20 @@ from simc_core.studies.plant_family import Robustness, robustness
 
 HEIGHT = 420  # px
 POINTS = 400
+ERRORS = ("From the record", "In per cent")
 
 
-def model_error_view(study: Study, excitation: Excitation) -> None:
+def model_error_view(study: Study, design: Design) -> None:
+    """What the record leaves open, of a plant that was identified; else, and on request, changes in per cent."""
+    if design.uncertainty:
+        chosen = st.segmented_control("Errors", ERRORS, default=ERRORS[0], required=True, key="errors")
+        if chosen == ERRORS[0]:
+            measured_error_view(study, design)
+            return
+    _changed(study, design.excitation)
+
+
+def _changed(study: Study, excitation: Excitation) -> None:
     """A change in per cent to choose; worst Ms with its corner, exact limits, and both bundles."""
     percent = st.slider(
         "Change of k, θ and τ₁, each up or down by",

@@ -10,8 +10,8 @@ from pages.common.parts.settings_text import sizes
 from pages.common.parts.units import unit_of, with_plain_unit
 from pages.common.session import state
 from pages.common.session.design import MOST_PINS, Tuning
+from pages.common.studies import measures
 from pages.common.studies.single import Study, study, study_of_settings
-from pages.common.tuning import measures
 from pages.common.tuning.source import LABELS
 from simc_core.controllers.forms import FORMS, Controller, IController
 from simc_core.errors import SimcError
@@ -71,8 +71,16 @@ def pin_button(present: Study) -> None:
 def design_table(studies: list[tuple[str, Study]]) -> None:
     """One column a design, present first, in a form that all have; a loop that is not stable has no figures."""
     form, sheet = common_form([each.controller for _, each in studies], state.value("form")), state.design_now().sheet
-    place, more = st.container(), measures.choose()
-    columns = {name: facts(each, form) | measures.values(each, more) for name, each in studies}
+    place = st.container()
+    more = st.multiselect(
+        "More numbers",
+        list(measures.MEASURES),
+        key="measures",
+        persist_state="session",
+        placeholder=measures.EXAMPLES,
+        help=measures.MEANINGS,
+    )
+    columns = {name: facts(each, form) | _further(each, more) for name, each in studies}
     units = UNITS | {label: measures.MEASURES[label].unit for label in more}
     integral = [LABELS["K_I"]] * any(isinstance(each.controller, IController) for _, each in studies)
     settings = *map(LABELS.get, SETTINGS[form]), *integral
@@ -92,6 +100,14 @@ def design_table(studies: list[tuple[str, Study]]) -> None:
         for i in range(len(pins)):
             left = pins[:i] + pins[i + 1 :]
             st.button(f"Unpin {LETTERS[i]}", key=f"unpin_{i}", on_click=state.change, kwargs={"pins": left})
+
+
+def _further(each: Study, labels: list[str]) -> dict[str, str]:
+    """The measures that were chosen, a dash where there is none."""
+    if not each.stable or not labels:
+        return {}
+    known = measures.Measured(each.loop, each.margins, each.performance)
+    return {label: number(value) for label, value in measures.values(known, labels).items()}
 
 
 def common_form(controllers: list[Controller], asked: str) -> str:

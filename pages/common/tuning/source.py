@@ -141,19 +141,27 @@ HELP = {
 def in_the_plant_now(plant: Plant, present: Study | None) -> Study | None:
     """The baseline: fields for it, and its study around this plant; None where none was told."""
     now = state.value("now")
-    with st.expander("In the plant now"):  # always of this name: another one would be closed
-        if now is None:
-            st.caption("Settings that are in your controller today, to see what a change brings and costs.")
-            offered = present.controller if present else FIRST
-            st.button("Enter them", key="now_begin", on_click=lambda: state.change(now=_shown_in_form(offered)))
-            return None
-        settings_fields(now, "now", lambda changed: state.change(now=changed))
-        st.button("Forget them", key="now_end", on_click=lambda: state.change(now=None))
+    folded = st.expander("In the plant now", key="now", on_change="rerun")
+    if folded.open:
+        with folded:
+            _now_fields(now, present)
+    if now is None:
+        return None
     try:
         return study_of_settings(plant, now)
     except SimcError as error:
         st.caption(f"The settings in the plant now do not suit this plant: {error}")
         return None
+
+
+def _now_fields(now: Controller | None, present: Study | None) -> None:
+    if now is None:
+        st.caption("Settings that are in your controller today, to see what a change brings and costs.")
+        offered = present.controller if present else FIRST
+        st.button("Enter them", key="now_begin", on_click=lambda: state.change(now=_shown_in_form(offered)))
+        return
+    settings_fields(now, "now", lambda changed: state.change(now=changed))
+    st.button("Forget them", key="now_end", on_click=lambda: state.change(now=None))
 
 
 def change_in_words(before: Study, after: Study, new: str = "the new settings") -> str:

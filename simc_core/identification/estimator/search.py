@@ -13,6 +13,8 @@ RATIOS = (1.0, 0.4, 0.12)  # of two lags
 ZETAS = (0.03, 0.15, 0.4, 0.8)
 LAGS = 18
 DEAD_TIMES = 28
+DELAYED = 0.6  # of the longest stretch without a gap, up to which dead times are tried densely
+HALF = 0.5  # of the whole, below which a stretch is looked at by itself
 
 
 def starts(problem: Problem, count: int) -> list[Array]:
@@ -32,8 +34,14 @@ def starts(problem: Problem, count: int) -> list[Array]:
 
 
 def dead_times(problem: Problem) -> Array:
-    """Dead times to try: 0, some in proportion, the rest evenly."""
-    longest = problem.high[0]
+    """Dead times to try: 0, some in proportion, the rest evenly; around a gap also those of a record without it."""
+    longest = float(problem.high[0])
+    whole = _dead_times(problem, longest)
+    stretch = DELAYED * max(record.stretch for record in problem.records)
+    return whole if stretch > HALF * longest else np.union1d(whole, _dead_times(problem, stretch))
+
+
+def _dead_times(problem: Problem, longest: float) -> Array:
     shortest = min(max(0.3 * problem.records[0].interval, 1e-3 * longest), longest / 20)
     third = DEAD_TIMES // 2
     rising = np.geomspace(shortest, longest / 5, third, endpoint=False)
@@ -80,10 +88,12 @@ def _lags(problem: Problem) -> list[Array]:
     if not names:
         return [np.empty(0)]
     record = min(problem.records, key=lambda one: one.interval)
-    span = max(one.span for one in problem.records)
+    span, stretch = (max(values) for values in zip(*((one.span, one.stretch) for one in problem.records), strict=True))
     # finer where the samples are finer, but never finer than the means that the grid is worked on
     shortest = 0.3 * max(record.interval, float(np.median(np.diff(record.t))))
-    times = np.log(np.geomspace(shortest, 3 * span, LAGS))
+    times = np.log(np.geomspace(shortest, 3 * stretch, LAGS))
+    if stretch < HALF * span:
+        times = np.append(times, np.log(np.geomspace(3 * stretch, 3 * span, LAGS // 3 + 1)[1:]))
     if len(names) == 1:
         return [np.array([time]) for time in times]
     if names[1] == "zeta":

@@ -78,10 +78,34 @@ export class Instrument {
     const now = this.reading();
     if (now.curves !== false) this.views[this.view]?.draw(now);
     this.figures(now);
+    this.veil();
     this.root.dataset.exact = now.exact;
     this.around(!now.exact && this.movesSettings);
     this.root.dataset.drawn = this.slider.tau_c;
     if (now.exact) this.describe(now);
+  }
+
+  /** A lesson shows some panels, and some figures or none. panels, figures: names; none of panels: all. */
+  stage({ panels, figures, view }) {
+    this.staged = { panels, figures };
+    this.root.classList.add("staged");
+    this.root.style.setProperty("--rows", panels.length === 4 || !panels.length ? 2 : panels.length);
+    if (this.view === view) this.veil();
+    else this.look(view);
+    requestAnimationFrame(() => this.fit());
+  }
+
+  veil() {
+    if (!this.staged) return;
+    const { panels, figures } = this.staged;
+    const veiled = (element, yes) => element.style.setProperty("display", yes ? "none" : "");
+    for (const cell of this.root.querySelectorAll("[data-figure]"))
+      veiled(cell, !figures.includes(cell.dataset.figure));
+    veiled(this.root.querySelector(".strip"), !figures.length);
+    for (const box of this.root.querySelectorAll("figure"))
+      veiled(box, panels.length > 0 && !panels.includes(box.dataset.panel));
+    this.root.classList.toggle("few", panels.length > 0 && panels.length < 4);
+    this.root.classList.toggle("told", figures.length > 0);
   }
 
   /** The rest of the page: what it says of the settings waits until they come to rest (parts/style.css). */
@@ -102,7 +126,7 @@ export class Instrument {
 
   /** The panels in words, for those who do not see them; only when at rest. */
   describe(now) {
-    const words = this.words(now);
+    const words = this.staged && !this.staged.figures.length ? this.title() : this.words(now);
     for (const panel of this.views[this.view].panels)
       panel.plot.setAttribute("aria-label", `${panel.spec.title}. ${words}`);
     this.root.querySelector(".spoken").textContent = words;

@@ -1,6 +1,7 @@
 // An instrument on the page. Messages come as elements of their own (message.js), some of them before it is there.
 
 import { letters } from "./letters.js";
+import { skipTo } from "./skip.js";
 import { unpack } from "./table.js";
 
 export function mount(name, make) {
@@ -10,14 +11,16 @@ export function mount(name, make) {
     if (!one) {
       one = make(parentElement.querySelector(".live"));
       live.set(parentElement, one);
+      one.unskip = skipTo(one);
     }
     one.send = (what) => setTriggerValue("release", what);
     one.take(unpack(data));
     const box = letters(name);
-    box.open = (message) => one.take(message);
-    for (const message of box.waiting.splice(0)) one.take(message);
+    box.open = (message) => (message.kind === "stage" ? one.stage(message) : one.take(message));
+    for (const message of box.waiting.splice(0)) box.open(message);
     return () => {
       one.leave();
+      one.unskip();
       live.delete(parentElement);
       if (live.size === 0) box.open = null;
     };

@@ -6,7 +6,7 @@ export const ALARM = "--simc-alarm";
 
 export class Panel {
   /**
-   * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)}, styles [{color, dash, width, alpha}],
+   * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)}, styles [{color, dash, width, alpha, fill}],
    * square: one unit is as long on both axes.   tell(panel, x, y): what to read at the cursor.
    */
   constructor(spec, scale) {
@@ -59,7 +59,11 @@ export class Panel {
           dash: style.dash?.map((d) => d * scale),
           alpha: style.alpha ?? 1,
           points: { show: false },
-          paths: (u) => ({ stroke: trace(u, this.curves[i], new Path2D(), true) }),
+          ...(style.fill && { fill: theme.ink(style.fill) }),
+          paths: (u) => {
+            const path = trace(u, this.curves[i], new Path2D(), true);
+            return { stroke: path, fill: style.fill ? path : null };
+          },
         })),
       ],
       hooks: {

@@ -1,0 +1,64 @@
+"""The answer of a lesson: the right choice, what was to be seen, and the printed numbers beside ours."""
+
+import streamlit as st
+
+from pages.common.lessons import progress
+from pages.common.lessons.claims import value_of
+from pages.common.lessons.lesson import MOST_NUMBERS, Lesson, Printed
+from pages.common.lessons.opened import Cases
+from pages.common.lessons.texts import shown
+from simc_core.errors import SimcError
+from simc_core.notation import number
+
+
+def answer(lesson: Lesson, letters: str) -> None:
+    """The right choice, and what was to be seen."""
+    st.markdown(f"**{shown(lesson, lesson.question)}**")
+    right = lesson.right
+    st.success(f"**{letters[right - 1]}. {shown(lesson, lesson.choices[right - 1])}**")
+    chosen = progress.prediction(lesson)
+    if chosen and chosen != right:
+        st.caption(f"Predicted: {letters[chosen - 1]}. {shown(lesson, lesson.choices[chosen - 1])}")
+    st.markdown(shown(lesson, lesson.answer))
+    if lesson.claims:
+        st.markdown("\n".join(f"- {shown(lesson, claim.says)}" for claim in lesson.claims))
+
+
+def numbers(lesson: Lesson) -> None:
+    """What was printed beside ours, four at a time."""
+    if lesson.printed:
+        _printed(lesson)
+    if lesson.misprint:
+        st.caption(f"Misprint: {shown(lesson, lesson.misprint)}")
+
+
+def _printed(lesson: Lesson) -> None:
+    """What the paper prints, and what the program computes now."""
+    cases = Cases(lesson)
+    few, more = lesson.printed[:MOST_NUMBERS], lesson.printed[MOST_NUMBERS:]
+    _table(lesson, few, cases)
+    if more:
+        with st.expander(f"{len(more)} more printed numbers"):
+            _table(lesson, more, cases)
+
+
+def _table(lesson: Lesson, rows: tuple[Printed, ...], cases: Cases) -> None:
+    with st.container(key=f"printed_{rows[0].name}"):
+        st.table(
+            {
+                "quantity": [shown(lesson, row.name) for row in rows],
+                "printed": [row.value.replace("-", "−") for row in rows],
+                "here": [_ours(row, cases) for row in rows],
+                "where": [shown(lesson, row.where) for row in rows],
+            }
+        )
+    for row in rows:
+        if row.differs:
+            st.caption(f"{shown(lesson, row.name)}: {shown(lesson, row.differs)}")
+
+
+def _ours(row: Printed, cases: Cases) -> str:
+    try:
+        return number(value_of(row.of, cases)).replace("-", "−")
+    except SimcError:
+        return "–"

@@ -1,0 +1,83 @@
+"""All lessons: by subject or by paper, how far each has come, and one from a file."""
+
+import streamlit as st
+
+from pages.common.lessons import in_use, progress
+from pages.common.lessons.lesson import SUBJECTS, Lesson
+from pages.common.lessons.opened import check_designs
+from pages.common.lessons.read import read_lesson
+from pages.common.lessons.shelf import DATA, by_paper, by_subject
+from pages.common.lessons.texts import named, shown
+from pages.common.parts.foreign_text import exact, told
+from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.sources import cited, linked
+from pages.common.session import state
+from simc_core.errors import SimcError
+
+ORDERS = {"subject": "By subject", "paper": "By paper"}
+EXAMPLE = DATA / "V1.toml"
+
+
+def list_view() -> None:
+    """The list."""
+    if asked := state.place().get("lesson"):
+        st.warning(f"There is no lesson {exact(asked[:20])} here; these are there.")
+    with st.container(key="lesson_title"):
+        st.markdown("# Lessons")
+    st.markdown("Play, predict, move, then see. Each takes five to ten minutes, alone or in a lecture hall.")
+    order = st.segmented_control(
+        "Order",
+        list(ORDERS),
+        format_func=ORDERS.get,
+        default="subject",
+        required=True,
+        key="lessons_order",
+        persist_state="session",
+        label_visibility="collapsed",
+    )
+    groups = by_paper() if order == "paper" else by_subject()
+    for i, (title, found) in enumerate(groups.items()):
+        if found:
+            with st.container(key=f"lessons_{order}_{i}"):
+                st.markdown(f"## {title}" if order == "subject" else f"**{linked(title)}**")
+            _cards(found, f"{order}_{i}")
+    if progress.known():
+        st.button("Forget my predictions", key="progress_forget", on_click=progress.forget)
+    _from_file()
+
+
+def _cards(found: list[Lesson], name: str) -> None:
+    with st.container(key=f"cards_{name}"):
+        for lesson in found:
+            with st.container(border=True, height="stretch", vertical_alignment="distribute", gap="xsmall"):
+                source = f"{cited(lesson.source)} {shown(lesson, lesson.where)}" if lesson.source else ""
+                st.caption(" · ".join(filter(None, [source or SUBJECTS[lesson.subject], progress.word(lesson)])))
+                with explain_refusal():
+                    if st.button(named(lesson, lesson.title), key=f"open_{lesson.id}", width="stretch"):
+                        in_use.open_at(lesson, 1)
+                        st.rerun()
+
+
+def _from_file() -> None:
+    """A lesson that somebody wrote."""
+    with st.expander("A lesson of your own"):
+        st.markdown(
+            "A lesson is one text file: the question, the choices, the design as the fields of a link, the moves, what "
+            "is claimed and what is printed. Download one, change it, open it here. All fields are told in "
+            "*docs/lessons.md*."
+        )
+        st.download_button("Download one to begin with", EXAMPLE.read_bytes(), EXAMPLE.name, "application/toml")
+        upload = st.file_uploader("Open a lesson", type="toml", key="lesson_file", max_upload_size=1)
+        if upload is None:
+            return
+        try:
+            lesson = read_lesson(upload.getvalue())
+            check_designs(lesson)
+        except SimcError as error:
+            st.error(f"{exact(upload.name)} was not opened: {told(str(error))}")
+            return
+        if state.memory("lesson_opened", lambda: None) != upload.file_id:
+            state.make_last("lesson_file", lesson)
+            in_use.open_at(lesson, 1)
+            state.remember("lesson_opened", upload.file_id)
+            st.rerun()

@@ -1,0 +1,33 @@
+"""The lessons of the program, by subject and by paper. Pure: no streamlit."""
+
+from functools import cache
+from pathlib import Path
+
+from pages.common.lessons.lesson import SUBJECTS, Lesson
+from pages.common.lessons.read import read_lesson
+from simc_core.published.sources import SOURCES
+
+DATA = Path(__file__).with_name("data")
+NO_PAPER = "Beyond the papers"
+
+
+@cache
+def lessons() -> dict[str, Lesson]:
+    """All of them by id, in the order of the files."""
+    found = [read_lesson(file.read_bytes(), own=True) for file in sorted(DATA.glob("*.toml"))]
+    return {each.id: each for each in found}
+
+
+def by_subject() -> dict[str, list[Lesson]]:
+    """Title of each subject, and its lessons."""
+    return {title: [each for each in lessons().values() if each.subject == key] for key, title in SUBJECTS.items()}
+
+
+def by_paper() -> dict[str, list[Lesson]]:
+    """Each paper by its key, those with most lessons first; last those of none."""
+    keys = sorted({each.source for each in lessons().values()}, key=lambda key: (key == "", -len(_of(key)), key))
+    return {f"[{key}] {SOURCES[key]}" if key else NO_PAPER: _of(key) for key in keys}
+
+
+def _of(key: str) -> list[Lesson]:
+    return [each for each in lessons().values() if each.source == key]

@@ -1,0 +1,112 @@
+"""What a step shows beside its text: an instrument that moves, or figures."""
+
+from pages.common import live
+from pages.common.from_data.record_view import figure as record_figure
+from pages.common.half_rule import view as half_rule_view
+from pages.common.lessons.lesson import BASE, Lesson, Move
+from pages.common.lessons.opened import design_of, opened
+from pages.common.parts.panel import show
+from pages.common.session.design import Design
+from pages.common.studies import cascade
+from pages.common.studies.single import Study, present_study, study_of_settings, time_responses
+from pages.common.tuning.panels import open_loop
+from simc_core import Trend
+from simc_core.figures import built_input_figure, built_output_figure, input_figure, output_figure
+from simc_core.figures.trend import trend_figure
+
+HEIGHT = 260  # px
+
+
+def stage(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    """The figure of a move for the design as it stands now. figures: names of numbers that are shown with it."""
+    SHOWN[move.shows](lesson, move, design, figures)
+
+
+def _behind(lesson: Lesson, move: Move) -> list[tuple[str, Study]]:
+    return [(named(case), present_study(design_of(lesson, case))) for case in move.behind]
+
+
+def named(case: str) -> str:
+    """A case in a legend."""
+    return case.replace("_", " ")
+
+
+def _tau_c(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    live.tuning_instrument(design.plant, [("now", present_study(design)), *_behind(lesson, move)])
+    live.staged("tuning", move.panels, figures, move.view)
+
+
+def _settings(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    live.hand_instrument(present_study(design), _behind(lesson, move), settings=True)
+    live.staged("hand", move.panels, figures, move.view)
+
+
+def _plant(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    present = present_study(design)
+    live.hand_instrument(present, [("before", present), *_behind(lesson, move)], settings=False)
+    live.staged("hand", move.panels, figures, move.view)
+
+
+def _cascade(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    live.cascade_instrument(design.cascade)
+    live.staged("cascade", move.panels, figures, move.view)
+
+
+def _single(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    courses = cascade.time_responses(cascade.study(design.cascade))
+    show(output_figure(courses, HEIGHT), "single_y", "Output y1 of the cascade and of a single loop: r, d1, d2")
+    show(input_figure(courses, HEIGHT), "single_u", "Input u of the cascade and of a single loop")
+
+
+def _half_rule(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    reduction = opened(design).reduction
+    half_rule_view.budget(reduction)
+    half_rule_view.steps(reduction)
+
+
+def _bode(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    open_loop([("now", present_study(design)), *_behind(lesson, move)])
+
+
+def _built(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    found = opened(design).built
+    show(built_output_figure(found, HEIGHT), "built_y", "Output y of the loop as built and of the linear loop")
+    show(built_input_figure(found, HEIGHT), "built_u", "Input u of the loop as built and of the linear loop")
+
+
+def _trend(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    case = opened(design)
+    trend = case.work.trend
+    part, _ = case.work.part(design.record)
+    chosen = case.fit if design.record.structure else None
+    record_figure(trend, design, part, chosen)
+
+
+def _relay(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    found = opened(design).relay
+    figure = trend_figure(Trend(found.t, found.y, found.u), height=2 * HEIGHT)
+    show(figure, "relay", "Output and input of a plant under a relay")
+
+
+def _rules(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
+    first = "now" if move.case == BASE else named(move.case)
+    designs = [(first, design), *((named(case), design_of(lesson, case)) for case in move.behind)]
+    studies = [study_of_settings(each.plant, opened(each).row.controller) for _, each in designs]
+    courses = list(zip([name for name, _ in designs], time_responses(studies, design.excitation), strict=True))
+    show(output_figure(courses, HEIGHT), "rules_y", "Output y after a set-point step and a load step")
+    show(input_figure(courses, HEIGHT), "rules_u", "Controller output u after a set-point step and a load step")
+
+
+SHOWN = {
+    "tau_c": _tau_c,
+    "settings": _settings,
+    "plant": _plant,
+    "cascade": _cascade,
+    "single": _single,
+    "half_rule": _half_rule,
+    "bode": _bode,
+    "built": _built,
+    "trend": _trend,
+    "relay": _relay,
+    "rules": _rules,
+}

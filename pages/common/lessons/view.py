@@ -1,0 +1,121 @@
+"""A lesson, step by step: play, question, moves, answer, numbers. The figure stands beside the text."""
+
+import streamlit as st
+
+from pages.common.lessons import in_use, progress
+from pages.common.lessons.answer import answer, numbers
+from pages.common.lessons.lesson import MOVING, Lesson
+from pages.common.lessons.stage import stage
+from pages.common.lessons.texts import named, shown
+from pages.common.parts.formula import fitted
+from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.sources import cited
+from pages.common.session import state
+from pages.common.session.design import Design
+
+LETTERS = "ABCDE"
+QUESTION = 2
+
+
+def lesson_view(lesson: Lesson) -> None:
+    """The step that the address names."""
+    step = in_use.step_now(lesson)
+    with explain_refusal():
+        in_use.arrive(lesson, step)
+    design = state.design_now()
+    _title(lesson, step)
+    if step == QUESTION:
+        with st.container(key="lesson_question"):
+            about(lesson, design)
+            _question(lesson)
+            _way(lesson, step)
+        return
+    with st.container(key="stack_lesson"):
+        text, figure = st.columns([4, 8], gap="medium")
+    with text:
+        about(lesson, design)
+        _told(lesson, step)
+        _way(lesson, step)
+    with figure, explain_refusal():
+        stage(lesson, lesson.move_at(step), design, lesson.numbers if step > lesson.answer_at else ())
+
+
+def about(lesson: Lesson, design: Design) -> None:
+    """The plant, typeset."""
+    if lesson.move_at(1).shows == "trend":
+        return
+    if lesson.subject == "cascade":
+        blocks = design.cascade.primary, design.cascade.secondary
+        for name, block in zip("ab", blocks, strict=True):
+            st.markdown(f"$G_{name}(s) = {fitted(block)}$")
+    else:
+        st.markdown(f"$G(s) = {fitted(design.plant)}$")
+
+
+def _title(lesson: Lesson, step: int) -> None:
+    with st.container(key="lesson_title", horizontal=True, vertical_alignment="center", gap="small"):
+        st.button("All lessons", key="lesson_close", icon=":material/arrow_back:", on_click=in_use.close)
+        st.markdown(f"# {named(lesson, lesson.title)}", width="content")
+        if lesson.source:
+            st.markdown(f"{cited(lesson.source)} {shown(lesson, lesson.where)}", width="content")
+        st.caption(f"{_name(lesson, step)}, step {step} of {lesson.steps}", width="content")
+
+
+def _name(lesson: Lesson, step: int) -> str:
+    named = {1: "Play", QUESTION: "Question", lesson.answer_at: "Answer", lesson.answer_at + 1: "Numbers"}
+    return named.get(step, f"Move {step - QUESTION}")
+
+
+def _question(lesson: Lesson) -> None:
+    """The question alone, and the choices: one is pressed before anything moves."""
+    st.markdown(f"## {named(lesson, lesson.question)}")
+    chosen = progress.prediction(lesson)
+    for i, choice in enumerate(lesson.choices, start=1):
+        st.button(
+            f"**{LETTERS[i - 1]}**  {named(lesson, choice)}",
+            key=f"choice_{i}",
+            type="primary" if i == chosen else "secondary",
+            width="stretch",
+            on_click=progress.predict,
+            args=(lesson, i),
+        )
+
+
+def _told(lesson: Lesson, step: int) -> None:
+    """What the step says."""
+    if step >= lesson.answer_at:
+        progress.seen(lesson)
+        answer(lesson, LETTERS) if step == lesson.answer_at else numbers(lesson)
+        return
+    if step > QUESTION:
+        st.markdown(f"**{shown(lesson, lesson.question)}**")
+        if chosen := progress.prediction(lesson):
+            st.caption(f"Predicted: {LETTERS[chosen - 1]}. {shown(lesson, lesson.choices[chosen - 1])}")
+    with st.container(key="lesson_text"):
+        st.markdown(shown(lesson, lesson.move_at(step).text))
+
+
+def _way(lesson: Lesson, step: int) -> None:
+    """Back, on, and what was moved back to where it was."""
+    with st.container(key="lesson_way", horizontal=True, vertical_alignment="center", gap="small"):
+        if step > 1:
+            st.button("Back", key="lesson_back", shortcut="b", on_click=in_use.open_at, args=(lesson, step - 1))
+        if step < lesson.steps:
+            waits = step == QUESTION and not progress.prediction(lesson)
+            st.button(
+                "Go on without a prediction" if waits else "Next",
+                key="lesson_next",
+                type="secondary" if waits else "primary",
+                shortcut="n",
+                on_click=in_use.open_at,
+                args=(lesson, step + 1),
+            )
+        if step != QUESTION and lesson.move_at(step).shows in MOVING:
+            st.button(
+                "Put back",
+                key="lesson_put_back",
+                shortcut="z",
+                help="What was moved goes back to where this step began.",
+                on_click=in_use.put_back,
+                args=(lesson, step),
+            )

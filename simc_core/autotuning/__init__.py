@@ -1,0 +1,1 @@
+"""Auto-tuning: from what a trend shows to settings with their price."""

@@ -1,0 +1,39 @@
+"""Figures reach the browser as plotly itself would write them, which also checks every node of them."""
+
+import json
+
+import pytest
+
+from pages.common.parts import panel
+
+from .tools import run_page
+
+PAGES = {
+    "plant": ("plant", ""),
+    "half rule": ("half_rule", "Bode", "comparison"),
+    "responses": ("tuning", "Figures"),
+    "open loop": ("tuning", "Bode of L"),
+    "model error": ("tuning", "Model error"),
+    "as built": ("tuning", "As built"),
+    "rules": ("rules", ""),
+    "cascade": ("cascade", "Figures", "cascade_views"),
+    "windup": ("cascade", "Windup", "cascade_views"),
+}
+
+
+def drawn(page: str, *view: str) -> list[dict]:
+    app = run_page(page, *view, plant="2 exp(-3s)/((20s+1)(4s+1))", noise="0.02", unit="min", PV_unit="<b>")
+    return [without_nothing(json.loads(chart.proto.spec)) for chart in app.get("plotly_chart")]
+
+
+def without_nothing(figure: dict) -> dict:
+    """plotly leaves out an empty list of annotations, which says the same."""
+    return figure | {"layout": {name: each for name, each in figure["layout"].items() if each != []}}
+
+
+@pytest.mark.parametrize("where", PAGES)
+def test_every_figure_is_what_plotly_makes_of_it(monkeypatch, where):
+    ours = drawn(*PAGES[where])
+    monkeypatch.setattr(panel, "ReadyFigure", lambda figure: figure)
+    assert ours == drawn(*PAGES[where])
+    assert ours
