@@ -11,8 +11,8 @@ import numpy as np
 from pages.common.parts.qr import qr_svg
 from pages.common.take_home.proof import table
 from pages.common.take_home.report.record import Report, Row
-from pages.common.take_home.report.svg import FAR, HEIGHT, WIDTH, Curve, figure
 from simc_core.figures import palette
+from simc_core.figures.svg import FAR, HEIGHT, WIDTH, Curve, figure
 
 STYLE = (Path(__file__).parent / "report.css").read_text(encoding="utf-8")
 PAPER = "@page { size: A4; margin: 12mm; }\nbody { margin: 0; }\n"
