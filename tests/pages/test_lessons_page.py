@@ -7,9 +7,10 @@ from pages.common.lessons.in_use import TAG
 from pages.common.lessons.lesson import LONGEST
 from pages.common.lessons.shelf import DATA, lessons
 from pages.common.parts.sources import cited, linked
+from pages.common.session.loops import MOST_LOOPS
 from simc_core.published.sources import SOURCES
 
-from .tools import address, run_page, texts
+from .tools import address, copyables, run_page, texts
 
 V1 = lessons()["V1"]
 SHOWN = ("V1", "S8", "V2", "N1", "N2", "N5", "R1", "P01a")  # each kind of figure at least once
@@ -80,12 +81,20 @@ def test_ones_own_loop_stays_as_it_is_and_all_lessons_share_one_loop():
     assert loops(app).entries[0].design == mine
 
 
+def test_an_address_is_short_until_something_is_moved():
+    app = press(run_page("lessons"), "open_V1")
+    assert address(app) == {"lesson": "V1", "step": "1"}
+    (link,) = copyables(app)
+    assert link.endswith("?lesson=V1&step=1")
+    assert address(run_page("lessons", lesson="V1", step="3")) == {"lesson": "V1", "step": "3"}
+
+
 def test_what_was_moved_is_put_back_and_a_link_with_a_design_keeps_it():
     app = run_page("lessons", lesson="V1", step="3", tag="Lesson V1", plant=V1.design["plant"], tau_c="9")
     assert loops(app).design.tuning.tau_c == 9
     press(app, "lesson_put_back")
     assert loops(app).design.tuning.tau_c is None
-    assert address(app)["step"] == "3"
+    assert address(app) == {"lesson": "V1", "step": "3"}
 
 
 @pytest.mark.parametrize(("step", "found"), [("0", 1), ("99", 7), ("-1", 1), ("x", 1), ("٣", 3), ("9" * 30, 1)])
@@ -110,6 +119,27 @@ def test_a_lesson_of_a_file_opens_and_its_text_is_no_markup():
     assert address(app)["lesson"] == "file"
     heading = next(item.value for item in app.markdown if "<b>" in item.value)
     assert heading == "# `# <b>x</b> $y$ [a](b)`"
+
+
+def test_a_claim_of_a_file_that_does_not_hold_is_marked():
+    wrong = (DATA / "V1.toml").read_bytes().replace(b"IAE_load(PI) = 14.6", b"IAE_load(PI) = 41.6")
+    app = upload(run_page("lessons"), "mine.toml", wrong)
+    for _ in range(5):
+        press(app, "lesson_next")
+    assert texts(app).count("Does not hold here") == 1
+    assert "**Does not hold here:** `IAE_load(PI) = 41.6` is 14.59" in texts(app)
+
+
+def test_where_the_list_of_loops_is_full_a_lesson_says_so_and_shows_nothing_else():
+    app = run_page("lessons", plant="7/(3s+1)")
+    full = loops(app)
+    while len(full.entries) < MOST_LOOPS:
+        full = full.added(full.design)
+    app.session_state["loops"] = full
+    app.query_params.update({"lesson": "V1", "step": "3"})
+    app.run()
+    assert "delete one first" in app.error[0].value
+    assert V1.moves[0].text not in texts(app)
 
 
 @pytest.mark.parametrize(

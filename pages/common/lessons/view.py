@@ -20,10 +20,13 @@ QUESTION = 2
 def lesson_view(lesson: Lesson) -> None:
     """The step that the address names."""
     step = in_use.step_now(lesson)
+    _title(lesson, step)
     with explain_refusal():
         in_use.arrive(lesson, step)
-    design = state.design_now()
-    _title(lesson, step)
+        _step(lesson, step, state.design_now())
+
+
+def _step(lesson: Lesson, step: int, design: Design) -> None:
     if step == QUESTION:
         with st.container(key="lesson_question"):
             about(lesson, design)

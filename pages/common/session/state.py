@@ -41,8 +41,9 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
     given = st.query_params.to_dict()
     if asked := given.pop("view", ""):
         st.session_state["asked_view"] = asked
-    if not beside:
-        st.session_state["place"] = {}
+    if beside != st.session_state.get("beside", ()):  # another page
+        st.session_state["beside"] = beside
+        st.session_state["place"], st.session_state["stands_for"] = {}, None
     if given and given != st.session_state.get("address") and not _late(given):
         if beside:
             st.session_state["place"] = {name: given.pop(name) for name in beside if name in given}
@@ -65,6 +66,11 @@ def go_to_place(**parameters: str) -> None:
     """Another place of the same page, which the address shows; none for its beginning."""
     st.session_state["place"] = parameters
     _show_in_address()
+
+
+def place_stands_for(design: Design) -> None:
+    """The design that the place opens by itself, so that an address need not hold it."""
+    st.session_state["stands_for"] = design
 
 
 def design_now() -> Design:
@@ -309,7 +315,8 @@ def dismiss_ignored() -> None:
 def address() -> str:
     """The address of this page with the design in it."""
     base = (st.context.url or "").split("?")[0]
-    return f"{base}?{'&'.join([links.query(design_now()), *([urlencode(place())] if place() else [])])}"
+    own = [] if _is_told_by_place() else [links.query(design_now())]
+    return f"{base}?{'&'.join([*own, *([urlencode(place())] if place() else [])])}"
 
 
 def parameters() -> dict[str, str]:
@@ -333,8 +340,12 @@ def _late(given: dict[str, str]) -> bool:
     return given == former and monotonic() < until
 
 
+def _is_told_by_place() -> bool:
+    return bool(place()) and st.session_state.get("stands_for") == design_now()
+
+
 def _show_in_address() -> None:
-    wanted = links.encode(design_now()) | place()
+    wanted = ({} if _is_told_by_place() else links.encode(design_now())) | place()
     if st.query_params.to_dict() != wanted:
         st.query_params.from_dict(wanted)
     shown = st.session_state.get("address")
