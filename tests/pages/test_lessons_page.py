@@ -172,6 +172,7 @@ def test_sources_tell_each_publication_and_the_one_that_was_asked_for_first():
     assert len(found) == len(SOURCES)
     assert found[0].startswith(r"**[\[V06\]]")
     assert "Equation numbers 19 and 20" in texts(app)
+    assert "[The wrong way first](lessons?lesson=V2&step=1)" in texts(app)
 
 
 def test_a_key_in_brackets_leads_to_its_source_with_its_full_name_on_hover():
