@@ -5,7 +5,7 @@ import pytest
 from pages.common.lessons import progress
 from pages.common.lessons.in_use import TAG
 from pages.common.lessons.lesson import LONGEST
-from pages.common.lessons.shelf import DATA, lessons
+from pages.common.lessons.shelf import DATA, after, by_subject, lessons
 from pages.common.parts.sources import cited, linked
 from pages.common.session.loops import MOST_LOOPS
 from simc_core.published.sources import SOURCES
@@ -65,9 +65,19 @@ def test_from_play_to_the_numbers_with_a_prediction():
     assert [len(table.value) for table in app.table] == [4, 1]
     assert app.table[0].value["printed"].tolist() == ["0.57", "8", "1.38", "2.73"]
     assert app.table[0].value["here"].tolist() == ["0.5714", "8", "1.375", "2.727"]
+    press(app, "lesson_after")
+    assert "step 1 of" in texts(app)
+    assert address(app)["lesson"] != "V1"
     press(app, "lesson_close")
     assert "lesson" not in address(app)
     assert "done" in texts(app)
+
+
+def test_one_lesson_leads_to_the_next_until_all_were_seen():
+    seen = [next(iter(by_subject().values()))[0]]
+    while (following := after(seen[-1])) is not None:
+        seen.append(following)
+    assert len(seen) == len({each.id for each in seen}) == len(lessons())
 
 
 def test_ones_own_loop_stays_as_it_is_and_all_lessons_share_one_loop():

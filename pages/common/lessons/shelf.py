@@ -23,6 +23,13 @@ def by_subject() -> dict[str, list[Lesson]]:
     return {title: [each for each in lessons().values() if each.subject == key] for key, title in SUBJECTS.items()}
 
 
+def after(lesson: Lesson) -> Lesson | None:
+    """The next one by subject; None after the last one, and after one that is not of the program."""
+    order = [each for group in by_subject().values() for each in group]
+    at = order.index(lesson) + 1 if lesson in order else len(order)
+    return order[at] if at < len(order) else None
+
+
 def by_source() -> dict[str, list[Lesson]]:
     """Key of each paper, those with most lessons first, and its lessons; last "" for those of none."""
     keys = {each.source for each in lessons().values()}

@@ -5,6 +5,7 @@ import streamlit as st
 from pages.common.lessons import in_use, progress
 from pages.common.lessons.answer import answer, numbers
 from pages.common.lessons.lesson import MOVING, Lesson
+from pages.common.lessons.shelf import after
 from pages.common.lessons.stage import stage
 from pages.common.lessons.texts import named, shown
 from pages.common.parts.formula import fitted
@@ -112,6 +113,14 @@ def _way(lesson: Lesson, step: int) -> None:
                 shortcut="n",
                 on_click=in_use.open_at,
                 args=(lesson, step + 1),
+            )
+        elif following := after(lesson):
+            st.button(
+                f"Next lesson: {named(following, following.title)}",
+                key="lesson_after",
+                type="primary",
+                on_click=in_use.open_at,
+                args=(following, 1),
             )
         if step != QUESTION and lesson.move_at(step).shows in MOVING:
             st.button(
