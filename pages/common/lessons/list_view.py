@@ -76,8 +76,8 @@ def _from_file() -> None:
         except SimcError as error:
             st.error(f"{exact(upload.name)} was not opened: {told(str(error))}")
             return
-        if state.memory("lesson_opened", lambda: None) != upload.file_id:
+        if state.lasting("lesson_opened", lambda: None) != upload.file_id:
             state.make_last("lesson_file", lesson)
             in_use.open_at(lesson, 1)
-            state.remember("lesson_opened", upload.file_id)
+            state.make_last("lesson_opened", upload.file_id)
             st.rerun()
