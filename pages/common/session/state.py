@@ -44,8 +44,9 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
         st.session_state["asked_view"] = view
     if lecture:
         st.session_state["asked_lecture"] = {"view": view, "panel": panel}
-    if not beside:
-        st.session_state["place"] = {}
+    if beside != st.session_state.get("beside", ()):  # another page
+        st.session_state["beside"] = beside
+        st.session_state["place"], st.session_state["stands_for"] = {}, None
     if given and given != st.session_state.get("address") and not _late(given):
         if beside:
             st.session_state["place"] = {name: given.pop(name) for name in beside if name in given}
@@ -68,6 +69,11 @@ def go_to_place(**parameters: str) -> None:
     """Another place of the same page, which the address shows; none for its beginning."""
     st.session_state["place"] = parameters
     _show_in_address()
+
+
+def place_stands_for(design: Design) -> None:
+    """The design that the place opens by itself, so that an address need not hold it."""
+    st.session_state["stands_for"] = design
 
 
 def design_now() -> Design:
@@ -317,8 +323,9 @@ def dismiss_ignored() -> None:
 def address(**more: str) -> str:
     """The address of this page with the design in it.   more: what else it names, such as a view."""
     base = (st.context.url or "").split("?")[0]
+    own = [] if _is_told_by_place() else [links.query(design_now())]
     beside = urlencode(place() | more)
-    return f"{base}?{'&'.join([links.query(design_now()), *([beside] if beside else [])])}"
+    return f"{base}?{'&'.join([*own, *([beside] if beside else [])])}"
 
 
 def parameters() -> dict[str, str]:
@@ -342,8 +349,12 @@ def _late(given: dict[str, str]) -> bool:
     return given == former and monotonic() < until
 
 
+def _is_told_by_place() -> bool:
+    return bool(place()) and st.session_state.get("stands_for") == design_now()
+
+
 def _show_in_address() -> None:
-    wanted = links.encode(design_now()) | place()
+    wanted = ({} if _is_told_by_place() else links.encode(design_now())) | place()
     if st.query_params.to_dict() != wanted:
         st.query_params.from_dict(wanted)
     shown = st.session_state.get("address")

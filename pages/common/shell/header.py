@@ -113,17 +113,16 @@ def _take_along(place: str) -> None:
 
 def _open(upload, place: str) -> None:
     """Take the design of a file, once; a wrong file changes nothing and says why."""
-    if state.memory("opened", lambda: None) != upload.file_id:
-        state.remember("opened", upload.file_id)
+    if state.lasting("opened", lambda: None) != upload.file_id:
+        state.make_last("opened", upload.file_id)
         loops, why = project.load(upload.getvalue())
-        state.remember("refused", why)
+        state.make_last("refused", why)
         if loops is not None:
             state.take_loops(loops)
-            state.remember("opened", upload.file_id)
             if place == "home":
                 go("tuning")
             st.rerun()
-    why = state.memory("refused", lambda: "")
+    why = state.lasting("refused", str)
     if why:
         st.error(f"{exact(upload.name)} was not opened, nothing changed: {told(why)}")
     else:
