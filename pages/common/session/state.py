@@ -43,7 +43,7 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
     if view:
         st.session_state["asked_view"] = view
     if lecture:
-        st.session_state["asked_lecture"] = {"view": view, "panel": panel}
+        st.session_state["asked_lecture"] = {"view": view, "panel": panel, "on": "yes"}
     if not beside:
         st.session_state["place"] = {}
     if given and given != st.session_state.get("address") and not _late(given):
@@ -299,9 +299,29 @@ def asked_view() -> str:
     return st.session_state.pop("asked_view", "")
 
 
-def asked_lecture() -> dict[str, str]:
-    """View and panel of the lecture that a link asked for, told once; empty for none."""
+def asked_lecture(leave: Callable[[str], bool] = lambda view: False) -> dict[str, str]:
+    """View and panel of the lecture that a link asked for, told once; empty for none.
+
+    leave: whether a lecture of this view is for somebody else, who asks later.
+    """
+    if leave(st.session_state.get("asked_lecture", {}).get("view", "")):
+        return {}
     return st.session_state.pop("asked_lecture", {})
+
+
+def lecturing() -> dict[str, str]:
+    """The lecture view of a page without an instrument: which page, view and panel; empty where there is none."""
+    return lasting("lecture_on", dict)
+
+
+def lecture_is(on: dict[str, str]) -> None:
+    """Begin or, with nothing, end it."""
+    make_last("lecture_on", on)
+
+
+def ask_lecture() -> None:
+    """As a link that says lecture=1."""
+    st.session_state["asked_lecture"] = {"view": "", "panel": "", "on": "yes"}
 
 
 def ignored() -> list[Ignored]:

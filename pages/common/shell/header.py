@@ -10,6 +10,7 @@ from pages.common.parts.structures import told_of
 from pages.common.parts.units import time_text
 from pages.common.session import project, state
 from pages.common.session.design import Design
+from pages.common.shell.lecture import lecture, offer
 from pages.common.shell.loops_menu import loops_menu
 from pages.common.shell.sheet_form import sheet_form
 from pages.common.shell.styles import styles
@@ -44,6 +45,7 @@ def show(place: str) -> Design:
     design = state.begin(BESIDE.get(place, ()))
     if place not in NO_LOOP:
         _line(place, design)
+    lecture(place)
     _notices()
     with st.sidebar:
         loops_menu()
@@ -104,6 +106,7 @@ def _notices() -> None:
 def _take_along(place: str) -> None:
     st.caption("Share link: this page and design")
     copyable(state.address(), "address_text")
+    offer()
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
     upload = st.file_uploader("Open project", type="json", key="project_file", max_upload_size=1)
