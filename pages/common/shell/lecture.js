@@ -1,4 +1,4 @@
-// Keys of the lecture view of a page: Esc leaves it, H hides numbers and curves, arrows go through the steps of a story.
+// Keys of the lecture view of a page: Esc leaves it, H hides numbers and curves, arrows go through a story.
 
 const VEILED = "veiled"; // class of the page while they are hidden
 const THEIRS = "input, textarea, [role=slider], [role=tab], [role=radio]"; // what has a use of its own for these keys
