@@ -52,4 +52,4 @@ def show(figure: Figure, key: str, alt: str, picked: Callable[[str], None] | Non
 def _style(keys: list[str], chosen: int) -> str:
     """Two by two on a wide screen; on a narrow one the panel chosen alone, and the choice in sight."""
     hidden = ", ".join(f".st-key-panel_{key}" for i, key in enumerate(keys) if i != chosen)
-    return f"<style>@media (max-width: 640px) {{{hidden} {{display: none}}}}</style>"
+    return f"<style>@container page (max-width: 640px) {{{hidden} {{display: none}}}}</style>"
