@@ -38,7 +38,7 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
 
     beside: parameters that this page has beside those of the design, see `place`; on other pages they are unknown.
     """
-    given = st.query_params.to_dict()
+    given = links.without_trackers(st.query_params.to_dict())
     view, panel, lecture = (given.pop(name, "") for name in ("view", "panel", "lecture"))
     if view:
         st.session_state["asked_view"] = view
