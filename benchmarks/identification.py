@@ -3,12 +3,13 @@
 curve_fit is what people do: a first-order model simulated sample by sample with the dead time rounded to samples, k,
 tau1, theta and bias free, begun at the two-point model. Errors are medians and 90 % quantiles over tests with noise
 0 to 10 %, drift, unsettled starts, outliers, coarse and irregular sampling; Ms is that of the true plant with the PI of
-the model, tau_c = theta. FOLDER: comma-separated trends `NAME.csv` with the columns t, y, u (a header is skipped), for
-which models and verdicts are printed; they stay where they are.
+the model, tau_c = theta. FOLDER: trends as people have them, `.csv`, `.txt`, `.xlsx` and the like, for which is printed
+how each was read, the models, and what is said of them; they stay where they are, and nothing else is measured.
 """
 
 import sys
 import time
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -18,18 +19,23 @@ from scipy.optimize import curve_fit
 from benchmarks.recompute import keep, pin
 from simc_core import (
     FirstOrderDelay,
+    Identified,
     Loop,
     Plant,
     SimcError,
     Trend,
     by_hand,
+    half_rule,
     identify,
     identify_all,
     margins,
+    read_trend,
+    robust_tau_c,
     simc,
 )
 from tests.identification.simulated import first_order, rise
 
+KINDS = (".csv", ".txt", ".tsv", ".log", ".dat", ".xlsx", ".xls", ".xlsb", ".ods")
 TESTS = 120
 SIZES = (500, 2000, 10_000, 100_000)
 STRUCTURES = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag", "DIPDT", "inverse", "oscillating")
@@ -38,10 +44,11 @@ STRUCTURES = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag", "DIPDT", "inverse", "oscilla
 def main() -> None:
     """Print the tables and write the JSON."""
     pin()
-    rows = [*accuracy(), *speed()]
-    keep("identification", rows)
     if len(sys.argv) > 1:
         trends(Path(sys.argv[1]))
+        return
+    rows = [*accuracy(), *speed()]
+    keep("identification", rows)
 
 
 def accuracy() -> list[dict]:
@@ -104,22 +111,36 @@ def speed() -> list[dict]:
 
 
 def trends(folder: Path) -> None:
-    """What each trend of a folder gives."""
-    for path in sorted(folder.glob("*.csv")):
-        print(f"\n{path.name}")
+    """What each file of a folder gives: how it was read, each structure with its 95 % intervals, what is said of it."""
+    for path in sorted(folder.iterdir()):
+        if path.suffix.lower() not in KINDS:
+            continue
+        print(f"\n## {path.name}")
+        begun = time.process_time()
         try:
-            columns = np.genfromtxt(path, delimiter=",", invalid_raise=False)
-            columns = columns[np.all(np.isfinite(columns[:, :3]), axis=1)]
-            trend = Trend(columns[:, 0], columns[:, 1], columns[:, 2])
-            for one in identify_all(trend):
-                shown = ", ".join(
-                    f"{name} {value:.4g} ({one.standard_errors[name]:.2g})" for name, value in one.parameters.items()
-                )
-                print(f"  {one.structure}: {shown}; fit {one.fit:.3f}, criterion {one.criterion:.1f}")
-                for text in one.verdicts:
-                    print(f"    {text}")
-        except (SimcError, IndexError, ValueError) as error:
-            print(f"  {error}")
+            trend = read_trend(path)
+            print(f"   {'; '.join(note.rstrip('.') for note in trend.notes)}")
+            ranked = identify_all(trend)
+        except SimcError as error:
+            print(f"   refused: {error}")
+            continue
+        for one in ranked:
+            shown = ", ".join(
+                f"{name} {value:.4g} ({low:.3g} to {high:.3g})" for name, value, low, high in _values(one)
+            )
+            print(f"   {one.structure}: {shown}; fit {100 * one.fit:.1f} %, behind {one.criterion:.1f}")
+        for text in ranked[0].verdicts:
+            print(f"   - {text}")
+        with suppress(SimcError):
+            half = half_rule(ranked[0].plant).model
+            print(f"   by the half rule {half}")
+            print(f"   tau_c for Ms <= 1.7 with 95 %: {robust_tau_c(ranked):.4g}")
+        print(f"   {time.process_time() - begun:.2f} s of CPU")
+
+
+def _values(one: Identified) -> Iterator[tuple[str, float, float, float]]:
+    for name, value in one.parameters.items():
+        yield (name, value, *one.intervals[name])
 
 
 def fitted(trend: Trend) -> FirstOrderDelay | None:

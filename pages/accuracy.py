@@ -18,6 +18,5 @@ summary(checks)
 groups(checks)
 st.caption(
     "All published numbers are tests of the program, and the high-precision ones are computed again by its tests; "
-    "these are a selection. [SK03] J. Process Control 13 (2003) 291-309. [V06] Viteckova, SIMC tables and examples. "
-    "[PSB] Prelic, Sekara, Boskovic, cascade processes under robustness constraints."
+    "these are a selection."
 )

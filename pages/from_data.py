@@ -2,11 +2,23 @@
 
 import streamlit as st
 
-from pages.common.from_data import auto_view, experiments, models_view, record_view, source, tuning_view, understood
+from pages.common.from_data import (
+    auto_view,
+    experiments,
+    loop_view,
+    models_view,
+    points_view,
+    record_view,
+    source,
+    tuning_view,
+    understood,
+)
 from pages.common.from_data.graphical_view import graphical
 from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import sentence
 from pages.common.shell import header
+
+WAYS = ("How fast may the loop be?", "Auto-tuning", "Operating points")
 
 design = header.show("from_data")
 with st.container(key="stack_from_data"):
@@ -15,11 +27,13 @@ with controls:
     work = source.choose(design)
     if work is not None:
         understood.show(work)
+        source.beside(work, design)
 with shown:
     if work is None:
         source.empty()
     elif work.trend is None:
         st.error(sentence(told(work.reading.refusal)))
+        loop_view.known_controller(work)
     else:
         trend = work.trend
         figure = st.container()
@@ -34,13 +48,16 @@ with shown:
             st.error(f"**No model.** {sentence(fits.why)}")
         else:
             models_view.ranking(fits, model, trend)
-            models_view.card(model, trend, part)
-            speed, auto = st.tabs(("How fast may the loop be?", "Auto-tuning"), key="ways", on_change="rerun")
+            models_view.card(model, trend)
+            speed, auto, points = st.tabs(WAYS, key="ways", on_change="rerun")
             if speed.open:
                 with speed:
-                    tuning_view.show(work, trend, part, fits, model)
+                    tuning_view.show(work, trend, fits, model)
             if auto.open:
                 with auto:
-                    auto_view.show(work, trend, part, fits, model)
+                    auto_view.show(work, trend, fits, model)
+            if points.open:
+                with points:
+                    points_view.show(work, trend, part, fits, model)
             graphical(part, model)
 experiments.show(design)

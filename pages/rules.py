@@ -18,14 +18,20 @@ with explain_refusal():
     present = attempt(lambda: present_study(design))[0] if question.plant == design.plant else None
     rows = view.table(question)
     row = view.chosen_of(rows, design)
+    which = view.which_picture()
+    if which == view.PICTURES[1]:
+        view.plane(question, rows, row, present, design)
     with st.container(key="stack_rules"):
         left, right = st.columns(2, gap="medium")
-    with left:
-        view.picture(question, rows, row, present)
-    with right:
+    if which == view.PICTURES[0]:
+        with left:
+            view.trade_off(question, rows, row, present)
+    with right if which == view.PICTURES[0] else left:
         if row is None:
             st.info("No rule has settings for this plant.")
         else:
             chosen.word(row, question)
             chosen.actions(row, question, design)
+    if row is not None:
+        with right:
             chosen.responses(row, question, design, present)

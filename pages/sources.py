@@ -2,7 +2,26 @@
 
 import streamlit as st
 
+from pages.common.parts.sources import address
+from pages.common.parts.symbols import symbols
+from pages.common.session import state
 from pages.common.shell import header
+from simc_core.published.sources import SOURCES
+from simc_core.published.uses import MISPRINTS, USES
 
 header.show("sources")
-st.markdown("#### Sources")
+with st.container(key="lesson_title"):
+    st.markdown("# Sources")
+st.markdown(
+    "A DOI is given where it was found confirmed. \\[PSB\\], \\[RC00\\], \\[SK98\\] and \\[V06\\] are cited as this "
+    "project received them, those without a DOI from the common knowledge of the field: look them up before you cite "
+    "them."
+)
+asked = state.place().get("source", "")
+for key in sorted(SOURCES, key=lambda key: (key != asked, key)):
+    with st.container(key=f"source_{key}", border=key == asked, gap="xsmall"):
+        reference, _, doi = SOURCES[key].partition("https://")
+        link = f"[https\\://{doi}](https://{doi})" if doi else ""
+        st.markdown(f"**[\\[{key}\\]]({address(key)})** {reference}{link}  \n{symbols(USES[key])}")
+        if key in MISPRINTS:
+            st.caption("Misprints: " + " ".join(map(symbols, MISPRINTS[key])))

@@ -21,6 +21,7 @@ from simc_core.errors import (
     WrongType,
 )
 from simc_core.identification.cloud_peaks import ms_of_plants
+from simc_core.identification.experiments.known_controller import op_of_controller
 from simc_core.identification.experiments.relay import Relay, relay_from_trend, relay_test
 from simc_core.identification.experiments.retune_oscillation import retune_oscillation
 from simc_core.identification.experiments.setpoint_overshoot import setpoint_overshoot
@@ -29,6 +30,7 @@ from simc_core.identification.graphical import ByHand, by_hand
 from simc_core.identification.identified import Identified
 from simc_core.identification.identify import identify
 from simc_core.identification.moves import find_moves
+from simc_core.identification.operating_points import OperatingPoint, operating_points
 from simc_core.identification.rank import identify_all
 from simc_core.identification.reading.reader import read_trend
 from simc_core.identification.robust_tau_c import ms_of_cloud, robust_tau_c
@@ -126,6 +128,7 @@ __all__ = [
     "NotIdentifiable",
     "NotReducible",
     "NotStable",
+    "OperatingPoint",
     "Optimum",
     "OscillatingDelay",
     "OutOfDomain",
@@ -183,6 +186,8 @@ __all__ = [
     "ms_of_cloud",
     "ms_of_plants",
     "noise_variance",
+    "op_of_controller",
+    "operating_points",
     "optimal",
     "parse_plant",
     "performance",

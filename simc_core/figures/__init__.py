@@ -11,7 +11,7 @@ from simc_core.figures.frequency import (
 from simc_core.figures.nyquist import nested_nyquist_figure, nyquist_figure, plant_nyquist_figure
 from simc_core.figures.palette import Figure, config
 from simc_core.figures.polezero import pole_zero_figure
-from simc_core.figures.rules import trade_off_figure, tuning_plane_figure
+from simc_core.figures.rules import trade_off_figure
 from simc_core.figures.schedule import schedule_figure
 from simc_core.figures.time import (
     built_input_figure,

@@ -1,6 +1,5 @@
-"""Tuning rules in two pictures: the error over the peak of |S| and |T|, and the settings of PI rules in their plane."""
+"""Tuning rules in a picture: the error over the peak of |S| and |T|."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -8,8 +7,6 @@ import numpy as np
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
-from simc_core.notation import number
-from simc_core.studies.tuning_plane import TuningPlane
 
 PEAK = "Mst = max(Ms, Mt)  [–]"
 STYLES = {"PI": (palette.Y, "circle", "solid"), "PID": (palette.REDUCED, "diamond", "dash")}
@@ -68,52 +65,6 @@ def trade_off_figure(
     )
 
 
-def tuning_plane_figure(
-    plane: TuningPlane,
-    best: Path,
-    path: Path,
-    points: Sequence[Point],
-    chosen: Point | None,
-    present: Point | None,
-    height: int | None = None,
-) -> Figure:
-    """PI settings over the limit of stability and contours of max(Ms, Mt). x: |Kc|, y: tau_I of all points."""
-    low, high = float(plane.tau_I[0]), float(plane.tau_I[-1])
-    limit = np.clip(plane.limit, low, high)
-    below = np.concatenate([plane.Kc, plane.Kc[[-1, 0]]]), np.concatenate([limit, [low, low]])
-    fill = {"fill": "toself", "fillcolor": palette.ALARM_BAND, "hoverinfo": "skip", "showlegend": False}
-    reached = np.isfinite(plane.limit)
-    traces = [
-        palette.line(*below, "not stable", palette.ALARM_BAND, "solid", 0.0) | fill,
-        palette.line(
-            plane.Kc[reached], plane.limit[reached], "limit of stability", palette.ALARM, "solid", 1.6, hoverinfo="skip"
-        ),
-    ]
-    notes = []
-    for level, lower, upper in plane.contours:
-        found = np.isfinite(upper)
-        traces.append(_contour(level, upper[found], plane.tau_I[found]))
-        at = int(np.flatnonzero(found)[-1])
-        notes.append(_label(f"{level:g}", float(upper[at]), float(plane.tau_I[at])))
-        above = found & (lower > 0)
-        if above.any():
-            traces.append(_contour(level, lower[above], plane.tau_I[above]))
-    if best.x.size:
-        color, _, _ = STYLES["PI"]
-        traces.append(palette.line(best.x, best.y, best.name, color, "solid", 2.4, hovertemplate=HOVER))
-    traces += [_path(path)] if path.x.size else []
-    middle = math.sqrt(float(plane.Kc[0] * plane.Kc[-1]))
-    traces += [*_points(points, "Kc %{x:.4g}, τI %{y:.4g}"), *_marks(chosen, present, middle)]
-    return palette.figure(
-        traces,
-        palette.short_log_axis("Kc  [unit of u / unit of y]", *plane.Kc[[0, -1]].tolist()),
-        palette.short_log_axis("τI  [time unit]", low, high),
-        height,
-        hovermode="closest",
-        annotations=notes,
-    )
-
-
 HOVER = "%{x:.4g}, %{y:.4g}"
 
 
@@ -168,24 +119,6 @@ def _mark(point: Point, color: str, marker: dict, position: str) -> Trace:
     return palette.marker(
         point.x, point.y, point.name, color, point.name, position, marker=marker, hoverinfo="skip", cliponaxis=True
     )
-
-
-def _contour(level: float, Kc: np.ndarray, tau_I: np.ndarray) -> Trace:
-    return palette.line(
-        Kc,
-        tau_I,
-        f"Mst {number(level)}",
-        palette.S,
-        "dash",
-        1.2,
-        hovertemplate=f"Mst {number(level)}<extra></extra>",
-        showlegend=False,
-    )
-
-
-def _label(text: str, x: float, y: float) -> dict:
-    """At the upper end of a contour; the axes are logarithmic."""
-    return palette.label(text, math.log10(x), math.log10(y), above=False) | {"xanchor": "center"}
 
 
 def _view(fronts: Sequence[Path], points: Sequence[Point]) -> tuple[float, float, float]:

@@ -11,7 +11,7 @@ from simc_core.identification.frequency_band import FrequencyBand
 
 Array = NDArray[np.float64]
 LOWEST_PHASE = -360.0  # degrees; dead time winds on for ever
-SEEN = 0.15  # opacity of a band
+SEEN = 0.6  # opacity of a band, on top of the half that plotly fills with
 FAR = (-4.0, 6.0)  # of y: what grows beyond stays outside the picture
 
 
@@ -112,7 +112,7 @@ def _band(x: Array, low: Array, high: Array, color: str) -> Trace:
         "y": np.concatenate([high, low[::-1]]),
         "fill": "toself",
         "line": {"width": 0, "color": color},
-        "opacity": SEEN * 2,
+        "opacity": SEEN,
         "hoverinfo": "skip",
         "showlegend": False,
     }

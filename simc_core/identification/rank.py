@@ -4,7 +4,7 @@ IC = 2 n_e ln(sigma) + p ln(n_e) + 2 p, with n_e the effective samples of the cl
 that fits badly, and so leaves correlated residuals, would win.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import exp, log, sqrt
 
@@ -37,6 +37,7 @@ def identify_all(
     drift: bool | None = None,
     between_samples: bool = False,
     sign: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> tuple[Identified, ...]:
     """Several structures fitted, the best first.
 
@@ -49,6 +50,8 @@ def identify_all(
     between_samples : bool
     sign : {1, -1}, optional
         As for `identify`.
+    progress : callable, optional
+        Called with the number of structures that are done and of all, before each.
 
     Returns
     -------
@@ -75,7 +78,9 @@ def identify_all(
     keys = checks.items("structures", structures, 8)
     found: list[Identified] = []
     reasons: list[NotIdentifiable] = []
-    for key in keys:
+    for i, key in enumerate(keys):
+        if progress is not None:
+            progress(i, len(keys))
         try:
             found.append(identify(trends, key, drift=drift, between_samples=between_samples, sign=sign))
         except NotIdentifiable as error:

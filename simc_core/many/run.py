@@ -17,7 +17,7 @@ from simc_core.many.result import Result, refused
 from simc_core.many.tune_rows import tune_chunk
 from simc_core.many.worker import Worker, WorkerGone
 
-ROWS = 400  # of a chunk: half a second; with fewer, too few loops have the same structure
+ROWS = 1000  # of a chunk: a second; with fewer, too few loops have the same structure
 ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched
 
 LONGEST = 60.0  # seconds that a row may take when it is alone, the start of its process with it

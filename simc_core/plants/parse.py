@@ -16,6 +16,7 @@ from simc_core.numbers.refusal import quoted
 from simc_core.plants.parse_values import Value, degree, inverse, number_of, plant_of, polynomial, times
 from simc_core.plants.pasted.calls import coefficients, read_call, with_numbers
 from simc_core.plants.pasted.clutter import without_clutter
+from simc_core.plants.pasted.factored import read_factored
 from simc_core.plants.pasted.grammar import Reader
 from simc_core.plants.pasted.parameters import DAMPING, DELAYS, GAINS, LAGS, from_parameters
 from simc_core.plants.pasted.statements import Statement, statements
@@ -64,7 +65,7 @@ def parse_plant(text: str) -> Plant:
     if not text.strip():
         raise ParseError(f"text must not be empty: write a transfer function, {EXAMPLE}", text)
     try:
-        return _plant(text)
+        return read_factored(text) or _plant(text)
     except OverflowError:
         raise ParseError("numbers here grow beyond all bounds", text) from None
 

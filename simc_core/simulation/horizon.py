@@ -1,6 +1,7 @@
 """How long a loop is worth watching, and when its load step begins, where the scenario leaves that open."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -30,6 +31,7 @@ def times(loop: Loop, scenario: Scenario) -> tuple[float, float]:
     return begins, begins + scenario.disturbance_ramp + part
 
 
+@lru_cache(maxsize=64)  # a page that shows a loop asks again and again
 def settling_horizon(loop: Loop) -> float:
     """A round time in which the slowest closed-loop mode settles to 1 %; of an unstable loop, shows what grows."""
     scale, form = loop.plant.total_time, loop.controller.to_parallel()

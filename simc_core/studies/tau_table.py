@@ -19,9 +19,10 @@ from simc_core.errors import InvalidParameter
 from simc_core.plants.models import Model
 from simc_core.rules.simc_family import lag_of
 
-PER_DECADE = 14
+PER_DECADE = 7
 STENCIL = 4
-TOLERANCE = 1e-3  # of a curve's range, at the midpoints: half of what the reader is promised
+TOLERANCE = 1e-3  # of a curve's range: half of what the reader is promised
+HALVED = 8  # times smaller the error is taken to be between rows half as far apart: a cubic's falls by 2^4
 MOST_ROWS = 320
 NEAR = 1e-7
 
@@ -79,28 +80,24 @@ def read(rows: Rows, curves: np.ndarray, x: float) -> np.ndarray:
 def refined(
     rows: Rows, compute: Callable[[np.ndarray], Curves], tolerance: float = TOLERANCE, most: int = MOST_ROWS
 ) -> tuple[Rows, Curves]:
-    """Rows between which every curve is read to `tolerance` of its range, as checked at all midpoints, and the curves.
+    """Rows between which every curve is read to `tolerance` of its range, and the curves.
 
-    compute: from tau_c, shape (m,), to the curves there. An interval that fails is halved, and its neighbours, which
-    share its stencil, are looked at again. At `most` rows it ends.
+    compute: from tau_c, shape (m,), to the curves there. What is computed in the middle of an interval tells how well
+    it was read, and becomes a row, so that all intervals are halved once. Where the error was more than HALVED times
+    the tolerance the halves are looked at again. At `most` rows it ends.
     """
     values = compute(rows.tau_c)
     suspects = np.arange(len(rows.x) - 1)
     while len(suspects) and len(rows.x) < most:
         middle = (rows.x[suspects] + rows.x[suspects + 1]) / 2
         exact = compute(np.exp(middle))
-        wrong = np.array(
-            [_error(rows, values, x, [each[i] for each in exact]) > tolerance for i, x in enumerate(middle)]
-        )
-        if not wrong.any():
-            break
-        after = suspects[wrong] + 1
-        rows_x = np.insert(rows.x, after, middle[wrong])
+        errors = [_error(rows, values, x, [each[i] for each in exact]) for i, x in enumerate(middle)]
+        after = suspects + 1
         breaks = tuple(int(at + np.sum(after <= at)) for at in rows.breaks)
-        values = [np.insert(each, after, new[wrong], axis=0) for each, new in zip(values, exact, strict=True)]
-        inserted = after + np.arange(len(after))
-        rows = Rows(rows_x, breaks)
-        suspects = np.unique(np.concatenate([inserted - 1, inserted]))
+        rows = Rows(np.insert(rows.x, after, middle), breaks)
+        values = [np.insert(each, after, new, axis=0) for each, new in zip(values, exact, strict=True)]
+        halved = (after + np.arange(len(after)))[np.array(errors) > HALVED * tolerance]
+        suspects = np.unique(np.clip(halved[:, None] + np.arange(-2, 2), 0, len(rows.x) - 2))
     return rows, values
 
 

@@ -11,7 +11,18 @@ from tests.browser.tools import Server
 
 # That every page and every tab of them works under the policy is seen in test_for_everyone.py.
 MODEL = ("plant", "from_data?example=step", "half_rule")
-PAGES = ("", *MODEL, "tuning", "rules", "cascade", "take_home", "many", "accuracy")
+PAGES = (
+    "",
+    *MODEL,
+    "tuning",
+    "rules",
+    "cascade",
+    "take_home",
+    "many",
+    "lessons?lesson=V1&step=3",
+    "accuracy",
+    "sources",
+)
 
 
 def test_what_the_policy_forbids_does_not_happen(server, chromium):

@@ -11,7 +11,7 @@ from simc_core import Plant
 from tests.browser.tools import WIDTHS, both_themes, fits, frames, idle, picture
 
 EXAMPLE = "exp(-3s)/((6s+1)(4s+1)(2s+1))"  # [V06] example 1: PI Kc 0.57, tau_I 8
-PLACES = ("", "plant", "from_data", "half_rule", "tuning", "cascade", "accuracy")
+PLACES = ("", "plant", "from_data", "half_rule", "tuning", "cascade", "lessons", "accuracy", "sources")
 TRACEBACK = "[data-testid=stException]"
 
 

@@ -5,7 +5,17 @@ import pytest
 from tests.browser.tools import fits, idle
 
 WIDTHS = {1280: 900, 1024: 768, 853: 600, 1920: 1080, 390: 844}
-PAGES = ("", "plant", "half_rule", "tuning", "cascade", "take_home?box=honeywell_udc", "accuracy", "from_data")
+PAGES = (
+    "",
+    "plant",
+    "half_rule",
+    "tuning",
+    "cascade",
+    "take_home?box=honeywell_udc",
+    "accuracy",
+    "from_data",
+    "lessons?lesson=V1&step=3",
+)
 SITE = "unit=min&PV_unit=%C2%B0C&OP_unit=%25"
 # Words that are wider than their place, and switches that end beyond the place they are in.
 CUT = """() => {

@@ -7,7 +7,17 @@ import numpy as np
 import pytest
 from scipy.special import lambertw
 
-from simc_core import IController, IdealPid, Loop, Plant, SeriesPid, count_unstable, dominant_poles, stability
+from simc_core import (
+    IController,
+    IdealPid,
+    Loop,
+    ParallelPid,
+    Plant,
+    SeriesPid,
+    count_unstable,
+    dominant_poles,
+    stability,
+)
 from simc_core.certificate.characteristic import shifted
 from tests.oracles.pole_count import unstable
 from tests.oracles.random_loops import resonant_loop, wild_loop
@@ -35,6 +45,13 @@ def test_proportional_control_of_a_lag_is_lambert_w(k):
     exact = [complex(lambertw(-k / 5 * math.exp(0.2), n)) - 0.2 for n in range(-6, 6)]
     exact = sorted((s for s in exact if s.imag >= 0), key=lambda s: (-s.real, s.imag))[:4]
     assert upper(found) == pytest.approx(exact, rel=1e-11)
+
+
+@pytest.mark.parametrize("controller", [SeriesPid(0.9, math.inf), ParallelPid(0.9, 0.0, 0.0)])
+def test_proportional_control_of_a_pure_dead_time_is_a_logarithm(controller):
+    """1 + K e^{-s} = 0: s = ln K + i pi (2n + 1)."""
+    found = dominant_poles(Loop(Plant(1.0, 1.0), controller), most=2)
+    assert upper(found) == pytest.approx([complex(math.log(0.9), math.pi * n) for n in (1, 3)], rel=1e-12)
 
 
 def test_without_dead_time_all_roots_of_the_polynomial():

@@ -14,6 +14,7 @@ from pages.common.session import links
 from pages.common.session.design import Design, in_time_unit
 from pages.common.session.record import Chosen, Origin
 from simc_core import DataError, FirstOrderDelay, InvalidParameter, Loop, Plant, half_rule, margins, simc
+from tests.identification.test_known_controller import logged
 from tests.pages.tools import address, run_page, texts
 
 TRUTH = {  # what the examples were made with; the page says so to nobody
@@ -381,3 +382,28 @@ def test_a_link_with_a_rare_structure_opens_it():
     app = run_page("from_data", example="step", structure="inverse")
     assert app.segmented_control(key="structure").value == "inverse"
     assert "<small>T</small>" in html(app)
+
+
+def test_a_closed_loop_without_op_asks_for_its_controller():
+    _, record = logged(0.01)
+    rows = "\n".join(f"{t:.1f};{r:.0f};{y:.4f}" for t, r, y in zip(record.t, record.r, record.y, strict=True))
+    app = pasted("Time [s];SP;PV\n" + rows + "\n")
+    assert "no column is the controller output" in app.error[0].value
+    app.text_input(key="loop_Kc").set_value("0.9").run()
+    app.text_input(key="loop_tau_I").set_value("12").run()
+    app.button(key="compute_op").click().run()
+    assert not app.exception
+    assert not app.error
+    assert any("OP was computed from PV, SP and the controller" in item.value for item in app.warning)
+    assert re.search(r"<small>k</small><b>(1\.9|2\.0)", html(app))
+
+
+def test_a_closed_loop_at_constant_set_point_without_op_stays_refused():
+    _, record = logged(0.01, setpoint=False)
+    rows = "\n".join(f"{t:.1f};5;{y:.4f}" for t, y in zip(record.t, record.y, strict=True))
+    app = pasted("Time [s];SP;PV\n" + rows + "\n")
+    app.text_input(key="loop_Kc").set_value("0.9").run()
+    app.button(key="compute_op").click().run()
+    assert not app.exception
+    assert any("the set point never moves" in item.value for item in app.error)
+    assert "Parameters of the model" not in html(app)

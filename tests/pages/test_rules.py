@@ -1,16 +1,17 @@
 """Page of rules: the table, what is picked of it, and where that goes; links, plants of all kinds, a word on each."""
 
-import base64
 import json
 
 import numpy as np
 import pytest
 
 from pages.common.rules import words
+from pages.common.rules.plane import ground
 from pages.common.rules.table import Question, question_of, rows_of
 from pages.common.session.compared import OPTIMAL, USUAL, Compared
 from pages.common.session.design import Design, in_time_unit
-from simc_core import RULES, InvalidParameter, Plant
+from pages.common.studies.single import attempt, present_study
+from simc_core import RULES, IdealPid, InvalidParameter, Plant, SeriesPid, parse_plant
 from tests.pages.tools import address, run_page, texts
 
 LAG = "exp(-s)/(8s+1)"
@@ -78,7 +79,7 @@ def test_one_of_the_usual_plants_is_compared_and_named():
 
 def test_a_rule_of_a_link_is_drawn_with_a_word_on_it():
     app = rules(compared_kind="PID", compared_rule="zn_step-PID")
-    assert "**Ziegler-Nichols, step, PID**, ZN42" in texts(app)
+    assert "**Ziegler-Nichols, step, PID**, \\[[ZN42](sources?source=ZN42 " in texts(app)
     assert "raises $K_c$ by 1.25" in texts(app)
     trade_off, y, _ = specs(app)
     assert {trace["name"] for trace in y["data"]} >= {"Ziegler-Nichols, step, PID", "my design", "r"}
@@ -162,20 +163,47 @@ def test_plants_of_all_kinds_are_compared_or_refused_in_words(plant):
     assert ((table["remark"] != "") == table["Mst"].isna()).all()
 
 
+def ground_of(plant, own=None):
+    design = Design(plant=plant, own=own, source="own" if own else "simc")
+    question = question_of(design)
+    rows = list(rows_of(question))
+    chosen = next(row for row in rows if row.key == "simc")
+    present, _ = attempt(lambda: present_study(design))
+    return ground(question, rows, chosen, present, mine=True)
+
+
 def test_the_plane_shows_what_is_known_of_a_lag():
     """tau_I = tau1 = 8: L = a e^{-s}/s, Mst 1.59 at a = 0.499705; Kc = 10 is stable from tau_I = 2.11568 on."""
-    plane = specs(rules(PLANE))[0]
-    contour, limit = named(plane, "Mst 1.59"), named(plane, "limit of stability")
-    x, y = (np.array(_values(contour[axis])) for axis in "xy")
-    assert np.interp(8, y, x) == pytest.approx(8 * 0.499705, rel=3e-3)
-    x, y = (np.array(_values(limit[axis])) for axis in "xy")
-    assert np.interp(np.log(10), np.log(x), np.log(y)) == pytest.approx(np.log(2.11568), abs=0.03)
+    plane = ground_of(Plant(1, 1, (8,))).plane
+    contour, limit = next(each for each in plane["contours"] if each["level"] == "1.59"), plane["limit"]
+    assert np.interp(8, contour["y"], contour["x"]) == pytest.approx(8 * 0.499705, rel=3e-3)
+    x, y = np.log(limit["x"]), np.log(limit["y"])
+    assert np.interp(np.log(10), x, y) == pytest.approx(np.log(2.11568), abs=0.03)
+    assert next(each for each in plane["points"] if each["key"] == "simc-PI")["x"] == 4
 
 
-def _values(data):
-    if isinstance(data, dict):
-        return np.frombuffer(base64.b64decode(data["bdata"]), data["dtype"]).tolist()
-    return data
+def test_the_point_of_the_plane_stands_on_my_settings():
+    mine = IdealPid(5.0, 3.0, 0.0, 0.0, 0.7)
+    there = ground_of(Plant(1, 1, (8,)), mine)
+    assert there.controller == mine
+    assert there.Kc[0] < 5 < there.Kc[1]
+    assert there.tau_I[0] < 3 < there.tau_I[1]
+
+
+def test_where_I_have_no_PI_settings_the_point_begins_at_the_rule_that_was_picked():
+    there = ground_of(Plant(1, 1, (8, 2)), SeriesPid(2, 8, 2, 0.1))
+    assert (there.controller.Kc, there.controller.tau_D) == (SIMC_PI_OF_8_2, 0.0)
+
+
+SIMC_PI_OF_8_2 = 9 / (2 * 2)  # half rule: tau1 9, theta 2
+
+
+@pytest.mark.parametrize("plant", PLANTS.values(), ids=PLANTS.keys())
+def test_the_point_has_a_place_on_every_plant(plant):
+    there = ground_of(parse_plant(plant))
+    assert there.Kc[0] <= abs(there.controller.Kc) <= there.Kc[1]
+    assert there.tau_I[0] <= there.controller.tau_I <= there.tau_I[1]
+    json.dumps(there.plane, allow_nan=False)
 
 
 def test_each_rule_has_a_word_and_each_misprint_its_rule():

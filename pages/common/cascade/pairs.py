@@ -7,6 +7,7 @@ import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.cascade.widgets import METHOD_NAMES
+from pages.common.parts.sources import linked
 from pages.common.parts.symbols import symbols
 from simc_core.cascade.pairs import ROWS, Judged, judged
 from simc_core.notation import number, plain
@@ -19,17 +20,16 @@ REDRAWN = 0.3  # seconds between two drawings of a table that fills
 def pairs_view() -> None:
     """Two tables, peaks with IAE and settings, and the reason for every difference."""
     st.markdown(
-        "All pairs of [PSB], designed and evaluated now on the exact cascade. In brackets the printed number and how "
-        "far ours is from it; without brackets, nothing is printed that we could compare with."
+        linked(
+            "All pairs of [PSB], designed and evaluated now on the exact cascade. In brackets the printed number and "
+            "how far ours is from it; without brackets, nothing is printed that we could compare with."
+        )
     )
     found = _as_they_come()
     st.markdown("\n".join(f"- **{names}**: {symbols(note)}" for note, names in notes(found).items()))
     st.markdown("**Settings**, parallel form $k + k_i/s + k_d s$")
     st.dataframe([settings(each) for each in found], hide_index=True, width="stretch", height="content", key="settings")
-    st.caption(
-        "[PSB] Prelić, Šekara, Bošković, cascade control by direct synthesis under constraints on robustness. "
-        "Printed digits of Msa are those of the constraint."
-    )
+    st.caption("Printed digits of Msa are those of the constraint.")
 
 
 def _as_they_come() -> tuple[Judged, ...]:

@@ -19,7 +19,7 @@ PURPOSES = {"load": "Load", "setpoint": "Set point"}
 HEIGHT = 330  # px
 
 
-def show(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified) -> None:
+def show(work: Work, trend: Trend, fits: Fits, model: Identified) -> None:
     """Four settings with what they cost, one of which is taken; the response they rest on."""
     several = nearly(fits, model)
     kind = st.segmented_control("Controller", KINDS, default=KINDS[0], required=True, key="auto_kind")
@@ -28,7 +28,7 @@ def show(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified) -
     if found is None:
         st.warning(sentence(why))
     else:
-        _offer(work, trend, part, fits, model, found)
+        _offer(work, trend, fits, model, found)
     band, why = kept(fits, (model.structure, "band"), lambda: frequency_band(several))
     if band is None:
         st.caption(sentence(why))
@@ -43,7 +43,7 @@ def show(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified) -
     st.caption(f"Shaded: 95 % for all that the record leaves open.{said}")
 
 
-def _offer(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified, found: tuple[AutoTuned, ...]) -> None:
+def _offer(work: Work, trend: Trend, fits: Fits, model: Identified, found: tuple[AutoTuned, ...]) -> None:
     st.dataframe([_row(each, trend) for each in found], hide_index=True, width="stretch", height="content")
     st.caption(
         "Ms 95 %: not passed with 95 % for all that the record leaves open; its limit is 1.4 for damped and 2 for fast "
@@ -57,7 +57,7 @@ def _offer(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified,
     with st.container(key="send_auto", horizontal=True, gap="small", vertical_alignment="bottom"):
         chosen = st.selectbox("Settings", list(names), key="auto_chosen")
         if st.button("Take them to the tuning page", type="primary", key="tune_auto"):
-            send(work, trend, part, model, fits, own=names[chosen].controller)
+            send(work, trend, model, fits, own=names[chosen].controller)
 
 
 def _name(each: AutoTuned) -> str:

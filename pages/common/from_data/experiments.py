@@ -6,6 +6,7 @@ import streamlit as st
 
 from pages.common.parts import panel
 from pages.common.parts.number_field import number_field
+from pages.common.parts.sources import linked
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
@@ -75,7 +76,9 @@ def _numbers(form: str, fields: Fields, design: Design, optional: tuple[str, ...
 
 def _overshoot(design: Design) -> None:
     """[SS10]: with the loop under P control, one step of the set point with about 30 % overshoot."""
-    st.caption("Put the controller to P, make a step of the set point with about 30 % overshoot, and read off [SS10]:")
+    st.caption(
+        linked("Put the controller to P, make a step of the set point with about 30 % overshoot, and read off [SS10]:")
+    )
     given = _numbers("overshoot", OVERSHOOT, design)
     if not given:
         return

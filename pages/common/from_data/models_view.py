@@ -2,6 +2,7 @@
 
 import math
 from html import escape
+from time import monotonic
 
 import streamlit as st
 
@@ -23,6 +24,7 @@ FORMULAS = {
     "oscillating": r"\frac{k\,e^{-\theta s}}{\tau_0^2s^2+2\zeta\tau_0 s+1}",
     "unstable": r"\frac{k'e^{-\theta s}}{s-a}",
 }
+LONG = 1.0  # s, from when on progress is told
 UNKNOWN = 100.0  # ends of an interval that far apart tell nothing
 UNITS = {"k": (1, 0), "k_prime": (1, -1), "k_double_prime": (1, -2), "zeta": (0, 0), "a": (0, -1)}
 
@@ -35,8 +37,16 @@ def fits_of(work: Work, part: Trend | None, design: Design, why: str) -> Fits:
     wanted = USUAL + (MORE if more else ())
     if work.is_fitted(design.record, wanted):
         return work.fitted(part, design.record, wanted)
+    place, begun = st.empty(), monotonic()
+
+    def progress(done: int, of: int) -> None:
+        if monotonic() - begun > LONG:
+            place.progress(done / of, f"Fitting: {done} of {of} structures")
+
     with st.spinner("Fitting", show_time=True):
-        return work.fitted(part, design.record, wanted)
+        found = work.fitted(part, design.record, wanted, progress)
+    place.empty()
+    return found
 
 
 def chosen_of(fits: Fits, design: Design) -> Identified | None:
@@ -80,7 +90,7 @@ def ranking(fits: Fits, model: Identified, trend: Trend) -> None:
         )
 
 
-def card(model: Identified, trend: Trend, part: Trend) -> None:
+def card(model: Identified, trend: Trend) -> None:
     """The model with its 95 % intervals, and the verdicts."""
     st.markdown(f"$\\displaystyle G(s) = {FORMULAS[model.structure]}$")
     cells = "".join(_cell(name, model, trend) for name in model.parameters)
@@ -90,7 +100,7 @@ def card(model: Identified, trend: Trend, part: Trend) -> None:
         slope = _cell_html("k/τ₁", number(value), f"± {number(1.96 * error, 2)}", _unit("k_prime", trend))
     label = "Parameters of the model with 95 % intervals"
     st.html(f'<div class="typed model" role="group" aria-label="{label}">{cells}{slope}</div>')
-    facts = [f"fit {100 * model.fit:.1f} %", f"{part.t.size} samples", f"noise {number(model.noise, 2)}"]
+    facts = [f"fit {100 * model.fit:.1f} %", f"{model.predicted.size} samples", f"noise {number(model.noise, 2)}"]
     if model.correlation > 0.05:
         facts.append(f"correlation of neighbouring residuals {number(model.correlation, 2)}")
     st.caption(", ".join(facts) + ". Intervals: 95 %.")

@@ -23,7 +23,9 @@ def figure(trend: Trend, design: Design, part: Trend | None, model: Identified |
     """PV over OP, with the model and its residuals where there is one."""
     chosen = design.record
     cut = None if chosen.begin is None and chosen.end is None else _part(trend, design)
-    fitted = None if model is None or part is None else (part.t, model.predicted, model.residuals)
+    fitted = None
+    if model is not None and part is not None:  # of several records this one comes first
+        fitted = part.t, model.predicted[: part.t.size], model.residuals[: part.t.size]
     found = trend_figure(
         trend, cut, chosen.bad, [move.t for move in moves_of(trend)], fitted, HEIGHT if fitted is None else TALL
     )

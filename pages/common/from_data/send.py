@@ -3,6 +3,7 @@
 from pages.common.from_data.work import Fits, Work, nearly
 from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
+from pages.common.session.home import Point
 from pages.common.session.record import PARAMETERS, Origin, kept_uncertainty
 from pages.common.session.sheet import LONGEST, TIME_UNITS
 from pages.common.shell import header
@@ -19,18 +20,23 @@ def plain_unit(trend: Trend) -> str:
 def send(
     work: Work,
     trend: Trend,
-    part: Trend,
     model: Identified,
     fits: Fits,
     tau_c: float | None = None,
     own: Controller | None = None,
+    points: tuple[Point, ...] = (),
 ) -> None:
-    """Begin the loop and go there.   tau_c: for SIMC, None for tight.   own: settings instead of SIMC's."""
+    """Begin the loop and go there.   tau_c: for SIMC, None for tight.   own: settings instead of SIMC's.
+
+    points: of a gain schedule, where it goes instead.
+    """
     errors = tuple(min(model.standard_errors[name], checks.LARGEST_GAIN) for name in PARAMETERS[model.structure])
     chosen = state.design_now().record
     with explain_refusal():
         state.begin_loop(model.plant, mine=True)
-        origin = Origin(state.plant(), model.structure, errors, min(model.fit, 1.0), int(part.t.size), work.name)
+        origin = Origin(
+            state.plant(), model.structure, errors, min(model.fit, 1.0), int(model.predicted.size), _source(work)
+        )
         units = {
             "unit": plain_unit(trend),
             "PV_unit": trend.units.get("y", "")[: LONGEST["PV_unit"]],
@@ -46,4 +52,12 @@ def send(
             state.change(controller="own")
         elif tau_c:
             state.change(tau_c=tau_c)
-        header.go("tuning")
+        if points:
+            state.change(points=points)
+            state.set_widget("home_views", "Schedule")
+        header.go("take_home" if points else "tuning")
+
+
+def _source(work: Work) -> str:
+    more = len(work.along()[0])
+    return f"{work.name} and {more} more" if more else work.name

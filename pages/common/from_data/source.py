@@ -8,12 +8,15 @@ from pages.common.from_data.work import Work, work_on, work_on_example
 from pages.common.parts.foreign_text import exact, told
 from pages.common.session import state
 from pages.common.session.design import Design
+from pages.common.session.record import Chosen
 from simc_core import SimcError
 
 LONGEST_PASTE = 500_000  # characters; what one message of a browser may hold is twice as much
 LARGEST_MB = 20
 KINDS = ["csv", "txt", "tsv", "log", "dat", "xlsx", "xls", "xlsb", "ods"]
 WORK, REFUSED, TURN = "from_data", "from_data_refused", "from_data_turn"
+ADD = "add_record"  # the switch that keeps what is there
+MOST_RECORDS = 10
 
 
 def choose(design: Design) -> Work | None:
@@ -21,16 +24,21 @@ def choose(design: Design) -> Work | None:
     _follow_link(design.record.example)
     work: Work | None = state.lasting(WORK, lambda: None)
     turn = state.lasting(TURN, lambda: 0)  # a fresh field each time: nothing of a file or a paste stays in it
-    upload = st.file_uploader(
-        "File with time, PV, OP",
+    uploads = st.file_uploader(
+        "Files with time, PV, OP",
         type=KINDS,
         key=f"trend_file_{turn}",
+        accept_multiple_files=True,
         max_upload_size=LARGEST_MB,
-        help="With SP where there is one. It is read on this server and forgotten with this session.",
+        help="With SP where there is one. Several tests of one process are fitted together. They are read on this "
+        "server and forgotten with this session.",
     )
-    if upload is not None:
-        _read(upload.name, upload.getvalue())
-        state.forget_upload(upload)
+    if work is not None:
+        st.toggle("Add to the record that is here", key=ADD, help="Records of one process are fitted together.")
+    if uploads:
+        _read([(upload.name, upload.getvalue()) for upload in uploads])
+        for upload in uploads:
+            state.forget_upload(upload)
         state.make_last(TURN, turn + 1)
         st.rerun()
     with st.expander("Paste"), st.form("paste", border=False):
@@ -42,7 +50,7 @@ def choose(design: Design) -> Work | None:
             placeholder="Time\tPV\tOP\n0\t20.5\t40\n1\t20.5\t45",
         )
         if st.form_submit_button("Read", width="stretch"):
-            if _read("pasted rows", (pasted or "") + "\n"):
+            if _read([("pasted rows", (pasted or "") + "\n")]):
                 state.make_last(TURN, turn + 1)
             st.rerun()
     state.set_widget("example", work.example if work and work.example else None)
@@ -66,7 +74,7 @@ def _follow_link(example: str) -> None:
         try:
             state.make_last(WORK, work_on_example(example))
         except SimcError as error:
-            state.make_last(REFUSED, ("the link", str(error)))
+            state.make_last(REFUSED, [("the link", str(error))])
             state.change(example="")
 
 
@@ -79,30 +87,64 @@ def _take_example() -> None:
 
 
 def _begin_example(key: str) -> None:
-    state.make_last(REFUSED, None)
+    state.make_last(REFUSED, [])
     state.make_last(WORK, work_on_example(key))
     state.make_last(BAD_PIECE, {})
     state.change(example=key, begin=None, end=None, bad=(), structure="")
 
 
-def _read(name: str, content: bytes | str) -> bool:
-    """Work on this; what is no trend changes nothing, and the reason stays."""
-    try:
-        work = work_on(name, content)
-    except SimcError as error:
-        state.make_last(REFUSED, (name, str(error)))
+def _read(given: list[tuple[str, bytes | str]]) -> bool:
+    """Work on these; what is no trend changes nothing, and the reason stays. Returns whether one was read."""
+    here: Work | None = state.lasting(WORK, lambda: None)
+    found: list[Work] = []
+    refused: list[tuple[str, str]] = []
+    kept = [here, *here.beside] if here is not None and state.widget(ADD) else []
+    for name, content in given:
+        try:
+            if len(kept) + len(found) >= MOST_RECORDS:
+                raise SimcError(f"at most {MOST_RECORDS} records are fitted together")
+            found.append(work_on(name, content))
+        except SimcError as error:
+            refused.append((name, str(error)))
+    state.make_last(REFUSED, refused)
+    if not found:
         return False
-    state.make_last(WORK, work)
-    state.make_last(REFUSED, None)
     state.make_last(BAD_PIECE, {})
+    if kept:
+        kept[0].beside += found
+        return True
+    first, *others = found
+    first.beside = others
+    state.make_last(WORK, first)
     state.change(example="", begin=None, end=None, bad=(), structure="")
     return True
 
 
+def beside(work: Work, design: Design) -> None:
+    """The records that are fitted along: each can be shown instead, or taken out."""
+    if not work.beside:
+        return
+    st.markdown("**Fitted together with**")
+    for i, other in enumerate(work.beside):
+        with st.container(key=f"beside_{i}", horizontal=True, gap="small", vertical_alignment="center"):
+            st.markdown(exact(other.name), width="stretch")
+            st.button("Show", key=f"show_{i}", on_click=_show, args=(work, i, design.record))
+            st.button("Remove", key=f"remove_{i}", on_click=work.beside.pop, args=(i,))
+    for why in work.along()[1]:
+        st.warning(told(why))
+
+
+def _show(work: Work, i: int, chosen: Chosen) -> None:
+    other = work.shown_instead(i, chosen)
+    state.make_last(WORK, other)
+    state.make_last(BAD_PIECE, {})
+    of = other.chosen
+    state.change(example=other.example, begin=None, end=None, bad=of.bad)
+    state.change(begin=of.begin, end=of.end)
+
+
 def _refusal() -> None:
-    refused = state.lasting(REFUSED, lambda: None)
-    if refused:
-        name, why = refused
+    for name, why in state.lasting(REFUSED, list) or ():
         st.error(f"{exact(name)} was not read, nothing changed: {told(why)}")
 
 

@@ -18,7 +18,7 @@ PROBABILITY = 0.95
 HEIGHT = 230  # px
 
 
-def show(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified) -> None:
+def show(work: Work, trend: Trend, fits: Fits, model: Identified) -> None:
     """tau_c for the limit of Ms, and the buttons that begin a loop with the plant."""
     several = nearly(fits, model)
     limit_place, said = st.columns([1, 3], gap="medium", vertical_alignment="bottom")
@@ -37,10 +37,10 @@ def show(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified) -
             slow = rounded_up(tau_c)
             label = f"Tune this model, τc = {number(slow)} {plain_unit(trend)}".rstrip()
             if st.button(label, type="primary", key="tune_robust"):
-                send(work, trend, part, model, fits, slow)
+                send(work, trend, model, fits, slow)
         label = "Tune this model, τc = θ" if slower else "Tune this model"
         if st.button(label, type="secondary" if slower else "primary", key="tune"):
-            send(work, trend, part, model, fits)
+            send(work, trend, model, fits)
     with st.expander("Ms against τc"):
         _curve(fits, several, limit, tau_c, trend)
 

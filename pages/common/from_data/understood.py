@@ -7,6 +7,7 @@ from pages.common.parts.foreign_text import exact, told
 from pages.common.parts.number_field import number_field
 from pages.common.session import state
 from simc_core import SimcError, checks
+from simc_core.identification.experiments.known_controller import COMPUTED
 from simc_core.identification.reading.questions import Question
 from simc_core.identification.reading.roles import ROLES
 
@@ -34,8 +35,10 @@ def show(work: Work) -> None:
     if notes:
         st.info("Not certain, please check:\n\n" + "\n".join(f"- {note}" for note in notes))
     why = state.lasting("from_data_answer", str)
-    if why:
+    if why and work.trend is not None:
         st.error(told(why))
+    if "controller" in work.how and work.trend is not None:
+        st.warning(told(COMPUTED))
     with st.expander("What was understood"):
         st.markdown("\n".join(f"- {told(sentence.rstrip('.'))}" for sentence in reading.understood))
 
@@ -58,7 +61,7 @@ def _question(work: Work, question: Question) -> None:
             "Seconds from one row to the next",
             work.how.get("period"),
             lambda value: checks.real("It", value, 1e-9, 1e9),
-            lambda value: _answer(work, "period", value),
+            lambda value: answer(work, "period", value),
             "period",
         )
         return
@@ -86,10 +89,10 @@ def _take(work: Work, name: str, key: str) -> None:
         return
     given = state.widget(key)
     if given is not None:
-        _answer(work, name, given)
+        answer(work, name, given)
 
 
-def _answer(work: Work, name: str, given: object) -> None:
+def answer(work: Work, name: str, given: object) -> None:
     """Callback: understand the file with this answer, or say why not."""
     why = ""
     try:

@@ -38,6 +38,8 @@ class Work:
     name: of the file or example.   example: its key, "" for a file.   content: of the file, kept while a question about
     it is open only.   how: answers that were given, by names of arguments of `read_trend`.
     reading: what it was understood to be.   fits: of the part that is fitted at present.
+    beside: other records of the same process, fitted together with this one.   chosen: what was chosen of it while it
+    was the one that is shown; of the shown one the design knows it.
     """
 
     name: str
@@ -47,6 +49,8 @@ class Work:
     reading: Reading
     how: dict[str, Any] = field(default_factory=dict)
     fits: Fits | None = None
+    beside: list["Work"] = field(default_factory=list)
+    chosen: Chosen = field(default_factory=Chosen)
 
     @property
     def trend(self) -> Trend | None:
@@ -71,19 +75,52 @@ class Work:
         except SimcError as error:
             return None, str(error)
 
-    def fitted(self, trend: Trend, chosen: Chosen, structures: tuple[str, ...]) -> Fits:
-        """All structures fitted to this part, kept until another part is asked for."""
+    def along(self) -> tuple[list[Trend], list[str]]:
+        """The parts of the records beside this one; and, in words, which of them cannot be fitted along, and why."""
+        found, left = [], []
+        unit = self.trend.units.get("t", "") if self.trend is not None else ""
+        for other in self.beside:
+            part, why = other.part(other.chosen)
+            if part is None:
+                left.append(f"{other.name}: {why}")
+            elif part.units.get("t", "") != unit:
+                own = part.units.get("t") or "no unit"
+                left.append(f"{other.name} is not fitted along: its time is in {own}, here in {unit or 'no unit'}")
+            else:
+                found.append(part)
+        return found, left
+
+    def shown_instead(self, i: int, chosen: Chosen) -> "Work":
+        """The record beside this one that is to be shown; this one, of which `chosen` was chosen, is beside it then."""
+        other = self.beside[i]
+        rest = [each for each in self.beside if each is not other]
+        self.chosen, self.beside, self.fits = chosen, [], None
+        other.beside, other.fits = [self, *rest], None
+        return other
+
+    def fitted(
+        self,
+        trend: Trend,
+        chosen: Chosen,
+        structures: tuple[str, ...],
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Fits:
+        """All structures fitted to this part and the records beside, kept until another part is asked for."""
         if self.fits is None or not self.is_fitted(chosen, structures):
-            of = _asked(chosen, structures)
+            of = self._asked(chosen, structures)
             try:
-                self.fits = Fits(of, identify_all(trend, structures))
+                self.fits = Fits(of, identify_all([trend, *self.along()[0]], structures, progress=progress))
             except SimcError as error:
                 self.fits = Fits(of, why=str(error))
         return self.fits
 
     def is_fitted(self, chosen: Chosen, structures: tuple[str, ...]) -> bool:
         """Whether this part has been fitted."""
-        return self.fits is not None and self.fits.of == _asked(chosen, structures)
+        return self.fits is not None and self.fits.of == self._asked(chosen, structures)
+
+    def _asked(self, chosen: Chosen, structures: tuple[str, ...]) -> tuple[Any, ...]:
+        others = tuple((id(each.reading), each.chosen) for each in self.beside)
+        return (chosen.begin, chosen.end, chosen.bad, structures, others)
 
 
 def nearly(fits: Fits, model: Identified) -> tuple[Identified, ...]:
@@ -100,10 +137,6 @@ def kept(fits: Fits, key: tuple[Any, ...], make: Callable[[], Any]) -> tuple[Any
         except SimcError as error:
             fits.known[key] = (None, str(error))
     return fits.known[key]
-
-
-def _asked(chosen: Chosen, structures: tuple[str, ...]) -> tuple[Any, ...]:
-    return (chosen.begin, chosen.end, chosen.bad, structures)
 
 
 def _cut(trend: Trend, chosen: Chosen) -> Trend:

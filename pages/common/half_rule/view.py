@@ -7,6 +7,7 @@ import streamlit as st
 from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.parts.rules_choice import rules_choice
+from pages.common.parts.sources import linked
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.parts.units import time_text, with_plain_unit
 from pages.common.session import state
@@ -67,14 +68,19 @@ def _allowed(name: str, time: float, words: str) -> None:
 
 
 def story(reduction: Reduction) -> None:
+    """What was done, and what is to be noted of it."""
+    steps(reduction)
+    for note in reduction.notes:
+        st.info(sentence(note))
+
+
+def steps(reduction: Reduction) -> None:
     """What was done, in order, each line with its equation."""
     st.latex(f"G(s) \\approx {latex(reduction.model)}")
     with st.container(border=True, key="story"):
         for i, step in enumerate(reduction.steps, start=1):
             st.markdown(f"{i}. {symbols(step.text)}" + (f"  \n   ${step.equation}$" if step.equation else ""))
-    st.caption("[SK03 eq. 10-11 and rules T1-T3; V06 eq. 15-17]")
-    for note in reduction.notes:
-        st.info(sentence(note))
+    st.caption(linked("[SK03 eq. 10-11 and rules T1-T3; V06 eq. 15-17]"))
 
 
 def budget(reduction: Reduction) -> None:

@@ -4,6 +4,7 @@ import streamlit as st
 
 from pages.common.parts.formula import fitted
 from pages.common.parts.refusals import explain_refusal, unread
+from pages.common.parts.sources import linked
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
 from pages.common.shell import header
@@ -43,7 +44,7 @@ def cards(examples: tuple[Example, ...], name: str) -> None:
         for example in examples:
             with st.container(border=True, height="stretch", vertical_alignment="distribute"):
                 st.markdown(f"${fitted(example.plant)}$")
-                st.caption(symbols(f"{example.note} {example.source}"))
+                st.caption(linked(symbols(f"{example.note} {example.source}")))
                 if st.button(example.name, key=f"example_{example.key}", width="stretch"):
                     with explain_refusal():
                         _begin(example.plant, mine=False)

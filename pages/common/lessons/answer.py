@@ -59,6 +59,6 @@ def _table(lesson: Lesson, rows: tuple[Printed, ...], cases: Cases) -> None:
 
 def _ours(row: Printed, cases: Cases) -> str:
     try:
-        return number(value_of(row.of, cases))
+        return number(value_of(row.of, cases)).replace("-", "−")
     except SimcError:
         return "–"

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import streamlit as st
 
-from pages.common.lessons.lesson import BASE, Lesson, Move
+from pages.common.lessons.lesson import Lesson, Move
 from pages.common.lessons.opened import design_of
 from pages.common.lessons.shelf import lessons
 from pages.common.session import state
@@ -55,12 +55,6 @@ def at_first(lesson: Lesson, move: Move | None) -> Design:
     """The design of a move, under the name of the lesson."""
     design = design_of(lesson, (move or lesson.play).case)
     return replace(design, sheet=replace(design.sheet, tag=f"{TAG}{lesson.id}"))
-
-
-def all_open(lesson: Lesson) -> None:
-    """Whether every case opens. Raises InvalidParameter, which names the field."""
-    for case in (BASE, *lesson.cases):
-        design_of(lesson, case)
 
 
 def arrive(lesson: Lesson, step: int) -> None:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from pages.common.parts.quantities import QUANTITIES
 from simc_core.errors import InvalidParameter
 
 SUBJECTS = {  # in the order in which they are taught
@@ -24,6 +25,7 @@ SUBJECTS = {  # in the order in which they are taught
     "cascade": "Cascades",
 }
 SHOWS = ("tau_c", "settings", "plant", "cascade", "single", "half_rule", "bode", "built", "trend", "rules", "relay")
+MOVING = ("tau_c", "settings", "plant", "cascade")  # with something to move, and numbers
 PANELS = ("y", "u", "nyquist", "sensitivity")
 VIEWS = ("responses", "tradeoff")
 BASE = "base"  # the case of the design alone
@@ -154,6 +156,8 @@ class Lesson:
                 raise InvalidParameter(f"a case is named by 1 to 16 letters and digits, not {BASE}, found {case[:20]}")
         if len(self.numbers) > MOST_NUMBERS:
             raise InvalidParameter(f"numbers must be at most {MOST_NUMBERS}, found {len(self.numbers)}")
+        for name in self.numbers:
+            _one_of("numbers", name, QUANTITIES)
         for move in (self.play, *self.moves):
             for case in (move.case, *move.behind):
                 _one_of("case", case, (BASE, *self.cases))
@@ -161,7 +165,8 @@ class Lesson:
     @property
     def steps(self) -> int:
         """How many there are: play, question, moves, answer, and numbers where there are any."""
-        return self.answer_at + bool(self.numbers or self.printed or self.misprint)
+        moving = self.moves[-1].shows in MOVING
+        return self.answer_at + bool(self.printed or self.misprint or (self.numbers and moving))
 
     @property
     def answer_at(self) -> int:

@@ -4,25 +4,26 @@ import streamlit as st
 
 from pages.common.lessons import in_use, progress
 from pages.common.lessons.lesson import SUBJECTS, Lesson
+from pages.common.lessons.opened import check_designs
 from pages.common.lessons.read import read_lesson
 from pages.common.lessons.shelf import DATA, by_paper, by_subject
-from pages.common.lessons.texts import shown
+from pages.common.lessons.texts import named, shown
 from pages.common.parts.foreign_text import exact, told
 from pages.common.parts.refusals import explain_refusal
-from pages.common.parts.sources import cited
+from pages.common.parts.sources import cited, linked
 from pages.common.session import state
 from simc_core.errors import SimcError
 
 ORDERS = {"subject": "By subject", "paper": "By paper"}
 EXAMPLE = DATA / "V1.toml"
-LEAST = 200  # bytes of a file that is worth reading
 
 
 def list_view() -> None:
     """The list."""
     if asked := state.place().get("lesson"):
         st.warning(f"There is no lesson {exact(asked[:20])} here; these are there.")
-    st.markdown("### Lessons")
+    with st.container(key="lesson_title"):
+        st.markdown("# Lessons")
     st.markdown("Play, predict, move, then see. Each takes five to ten minutes, alone or in a lecture hall.")
     order = st.segmented_control(
         "Order",
@@ -37,7 +38,8 @@ def list_view() -> None:
     groups = by_paper() if order == "paper" else by_subject()
     for i, (title, found) in enumerate(groups.items()):
         if found:
-            st.markdown(f"#### {title}" if order == "subject" else f"**{title}**")
+            with st.container(key=f"lessons_{order}_{i}"):
+                st.markdown(f"## {title}" if order == "subject" else f"**{linked(title)}**")
             _cards(found, f"{order}_{i}")
     if progress.known():
         st.button("Forget my predictions", key="progress_forget", on_click=progress.forget)
@@ -51,7 +53,7 @@ def _cards(found: list[Lesson], name: str) -> None:
                 source = f"{cited(lesson.source)} {shown(lesson, lesson.where)}" if lesson.source else ""
                 st.caption(" · ".join(filter(None, [source or SUBJECTS[lesson.subject], progress.word(lesson)])))
                 with explain_refusal():
-                    if st.button(shown(lesson, lesson.title), key=f"open_{lesson.id}", width="stretch"):
+                    if st.button(named(lesson, lesson.title), key=f"open_{lesson.id}", width="stretch"):
                         in_use.open_at(lesson, 1)
                         st.rerun()
 
@@ -70,7 +72,7 @@ def _from_file() -> None:
             return
         try:
             lesson = read_lesson(upload.getvalue())
-            in_use.all_open(lesson)
+            check_designs(lesson)
         except SimcError as error:
             st.error(f"{exact(upload.name)} was not opened: {told(str(error))}")
             return

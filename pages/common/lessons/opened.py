@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from pages.common.from_data.work import USUAL, Work, work_on_example
 from pages.common.lessons.lesson import BASE, Lesson
@@ -34,6 +34,8 @@ from simc_core.reduction.records import Reduction
 from simc_core.studies.comparison import Row
 from simc_core.studies.with_actuator import AsBuilt, as_built
 
+KEPT = 32  # designs, of all sessions
+
 
 def fields_of(lesson: Lesson, case: str) -> dict[str, str]:
     """The fields of a link that opens this case: those of the design, and further ones; an empty text takes one out."""
@@ -50,6 +52,12 @@ def design_of(lesson: Lesson, case: str) -> Design:
         where = "design" if case == BASE else f"cases.{case}"
         raise InvalidParameter(f"{where}: {ignored[0].name[:30]}: {ignored[0].why}")
     return design
+
+
+def check_designs(lesson: Lesson) -> None:
+    """Whether every case opens. Raises InvalidParameter, which names the field."""
+    for case in (BASE, *lesson.cases):
+        design_of(lesson, case)
 
 
 class Opened:
@@ -154,14 +162,17 @@ class Opened:
         return found
 
 
+@lru_cache(maxsize=KEPT)
+def opened(design: Design) -> Opened:
+    """The design, opened once for all sessions."""
+    return Opened(design)
+
+
 class Cases:
-    """All cases of a lesson, each opened when it is asked for, once."""
+    """The cases of a lesson by name, each opened when it is asked for."""
 
     def __init__(self, lesson: Lesson):
         self.lesson = lesson
-        self._opened: dict[str, Opened] = {}
 
     def __getitem__(self, case: str) -> Opened:
-        if case not in self._opened:
-            self._opened[case] = Opened(design_of(self.lesson, case))
-        return self._opened[case]
+        return opened(design_of(self.lesson, case))

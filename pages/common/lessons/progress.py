@@ -65,8 +65,9 @@ def keep() -> None:
 
 def _take() -> None:
     state.make_last("progress_asked", True)
-    for key, value in read(str(state.widget("progress")["kept"]["text"])).items():
-        known().setdefault(key, value)
+    for key, (choice, done) in read(str(state.widget("progress")["kept"]["text"])).items():
+        mine = known().get(key, [0, False])  # a link may have opened an answer before the browser told
+        known()[key] = [mine[0] or choice, mine[1] or done]
 
 
 def read(text: str) -> Known:

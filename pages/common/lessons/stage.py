@@ -3,8 +3,8 @@
 from pages.common import live
 from pages.common.from_data.record_view import figure as record_figure
 from pages.common.half_rule import view as half_rule_view
-from pages.common.lessons.lesson import Lesson, Move
-from pages.common.lessons.opened import Opened, design_of
+from pages.common.lessons.lesson import BASE, Lesson, Move
+from pages.common.lessons.opened import design_of, opened
 from pages.common.parts.panel import show
 from pages.common.session.design import Design
 from pages.common.studies import cascade
@@ -23,7 +23,12 @@ def stage(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) 
 
 
 def _behind(lesson: Lesson, move: Move) -> list[tuple[str, Study]]:
-    return [(case, present_study(design_of(lesson, case))) for case in move.behind]
+    return [(named(case), present_study(design_of(lesson, case))) for case in move.behind]
+
+
+def named(case: str) -> str:
+    """A case in a legend."""
+    return case.replace("_", " ")
 
 
 def _tau_c(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
@@ -54,9 +59,9 @@ def _single(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]
 
 
 def _half_rule(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
-    reduction = Opened(design).reduction
+    reduction = opened(design).reduction
     half_rule_view.budget(reduction)
-    half_rule_view.story(reduction)
+    half_rule_view.steps(reduction)
 
 
 def _bode(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
@@ -64,13 +69,13 @@ def _bode(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) 
 
 
 def _built(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
-    found = Opened(design).built
+    found = opened(design).built
     show(built_output_figure(found, HEIGHT), "built_y", "Output y of the loop as built and of the linear loop")
     show(built_input_figure(found, HEIGHT), "built_u", "Input u of the loop as built and of the linear loop")
 
 
 def _trend(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
-    case = Opened(design)
+    case = opened(design)
     trend = case.work.trend
     part, _ = case.work.part(design.record)
     chosen = case.fit if design.record.structure else None
@@ -78,15 +83,16 @@ def _trend(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...])
 
 
 def _relay(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
-    found = Opened(design).relay
+    found = opened(design).relay
     figure = trend_figure(Trend(found.t, found.y, found.u), height=2 * HEIGHT)
     show(figure, "relay", "Output and input of a plant under a relay")
 
 
 def _rules(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
-    named = [("now", design), *((case, design_of(lesson, case)) for case in move.behind)]
-    studies = [study_of_settings(each.plant, Opened(each).row.controller) for _, each in named]
-    courses = list(zip([name for name, _ in named], time_responses(studies, design.excitation), strict=True))
+    first = "now" if move.case == BASE else named(move.case)
+    designs = [(first, design), *((named(case), design_of(lesson, case)) for case in move.behind)]
+    studies = [study_of_settings(each.plant, opened(each).row.controller) for _, each in designs]
+    courses = list(zip([name for name, _ in designs], time_responses(studies, design.excitation), strict=True))
     show(output_figure(courses, HEIGHT), "rules_y", "Output y after a set-point step and a load step")
     show(input_figure(courses, HEIGHT), "rules_u", "Controller output u after a set-point step and a load step")
 

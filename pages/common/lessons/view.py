@@ -4,15 +4,14 @@ import streamlit as st
 
 from pages.common.lessons import in_use, progress
 from pages.common.lessons.answer import answer, numbers
-from pages.common.lessons.lesson import Lesson
+from pages.common.lessons.lesson import MOVING, Lesson
 from pages.common.lessons.stage import stage
-from pages.common.lessons.texts import shown
+from pages.common.lessons.texts import named, shown
 from pages.common.parts.formula import fitted
 from pages.common.parts.refusals import explain_refusal
 from pages.common.parts.sources import cited
 from pages.common.session import state
 from pages.common.session.design import Design
-from simc_core.notation import latex
 
 LETTERS = "ABCDE"
 QUESTION = 2
@@ -34,12 +33,11 @@ def lesson_view(lesson: Lesson) -> None:
     with st.container(key="stack_lesson"):
         text, figure = st.columns([4, 8], gap="medium")
     with text:
+        about(lesson, design)
         _told(lesson, step)
         _way(lesson, step)
-    with figure:
-        about(lesson, design)
-        with explain_refusal():
-            stage(lesson, lesson.move_at(step), design, lesson.numbers if step > lesson.answer_at else ())
+    with figure, explain_refusal():
+        stage(lesson, lesson.move_at(step), design, lesson.numbers if step > lesson.answer_at else ())
 
 
 def about(lesson: Lesson, design: Design) -> None:
@@ -48,7 +46,8 @@ def about(lesson: Lesson, design: Design) -> None:
         return
     if lesson.subject == "cascade":
         blocks = design.cascade.primary, design.cascade.secondary
-        st.markdown(", ".join(f"$G_{name}(s) = {latex(block)}$" for name, block in zip("ab", blocks, strict=True)))
+        for name, block in zip("ab", blocks, strict=True):
+            st.markdown(f"$G_{name}(s) = {fitted(block)}$")
     else:
         st.markdown(f"$G(s) = {fitted(design.plant)}$")
 
@@ -56,7 +55,7 @@ def about(lesson: Lesson, design: Design) -> None:
 def _title(lesson: Lesson, step: int) -> None:
     with st.container(key="lesson_title", horizontal=True, vertical_alignment="center", gap="small"):
         st.button("All lessons", key="lesson_close", icon=":material/arrow_back:", on_click=in_use.close)
-        st.markdown(f"### {shown(lesson, lesson.title)}", width="content")
+        st.markdown(f"# {named(lesson, lesson.title)}", width="content")
         if lesson.source:
             st.markdown(f"{cited(lesson.source)} {shown(lesson, lesson.where)}", width="content")
         st.caption(f"{_name(lesson, step)}, step {step} of {lesson.steps}", width="content")
@@ -69,11 +68,11 @@ def _name(lesson: Lesson, step: int) -> str:
 
 def _question(lesson: Lesson) -> None:
     """The question alone, and the choices: one is pressed before anything moves."""
-    st.markdown(f"## {shown(lesson, lesson.question)}")
+    st.markdown(f"## {named(lesson, lesson.question)}")
     chosen = progress.prediction(lesson)
     for i, choice in enumerate(lesson.choices, start=1):
         st.button(
-            f"**{LETTERS[i - 1]}**  {shown(lesson, choice)}",
+            f"**{LETTERS[i - 1]}**  {named(lesson, choice)}",
             key=f"choice_{i}",
             type="primary" if i == chosen else "secondary",
             width="stretch",
@@ -111,7 +110,7 @@ def _way(lesson: Lesson, step: int) -> None:
                 on_click=in_use.open_at,
                 args=(lesson, step + 1),
             )
-        if step != QUESTION:
+        if step != QUESTION and lesson.move_at(step).shows in MOVING:
             st.button(
                 "Put back",
                 key="lesson_put_back",

@@ -9,6 +9,16 @@ cache. uPlot draws (uplot.LICENSE); measured against plotly.js and a canvas of o
 from pages.common.live.cascade.instrument import cascade_instrument
 from pages.common.live.components import staged
 from pages.common.live.hand.instrument import hand_instrument, put_back
+from pages.common.live.plane.instrument import Ground, plane_instrument
 from pages.common.live.tuning.instrument import as_choice, tuning_instrument
 
-__all__ = ["as_choice", "cascade_instrument", "hand_instrument", "put_back", "staged", "tuning_instrument"]
+__all__ = [
+    "Ground",
+    "as_choice",
+    "cascade_instrument",
+    "hand_instrument",
+    "plane_instrument",
+    "put_back",
+    "staged",
+    "tuning_instrument",
+]

@@ -31,7 +31,7 @@ def _text(*files: Path) -> str:
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 
 
-_instruments = {name: _instrument(name) for name in ("tuning", "cascade", "hand")}
+_instruments = {name: _instrument(name) for name in ("tuning", "cascade", "hand", "plane")}
 message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
 
 

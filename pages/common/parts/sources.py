@@ -4,19 +4,30 @@ import re
 
 from simc_core.published.sources import SOURCES
 
-KEY = re.compile(r"\[([A-Z]{1,4}\d{2}|PSB)\b([^\]\n]*)\]")
+KEY = r"[A-Z]{1,4}\d{2}|PSB"
+ALONE = re.compile(rf"\b(?:{KEY})\b")
+BRACKETS = re.compile(rf"\[((?:{KEY})\b[^\]\n]*)\]")
+
+
+def address(key: str) -> str:
+    """Of the page of sources with this one on top."""
+    return f"sources?source={key}"
 
 
 def cited(key: str) -> str:
     """Markdown of the key in brackets, which leads to the page of sources and tells its full name on hover."""
-    full = SOURCES[key].replace('"', "'")
-    return f'[\\[{key}\\]](sources?source={key} "{full}")'
+    return linked(f"[{key}]")
 
 
 def linked(text: str) -> str:
-    """The text with a link in place of every first key in square brackets, [SK03 eq. 10]."""
+    """The text with a link in place of every key in square brackets, [SK03 eq. 10; V06]."""
 
     def link(found: re.Match) -> str:
-        return f"{cited(found[1])}{found[2]}" if found[1] in SOURCES else found[0]
+        return rf"\[{ALONE.sub(_link, found[1])}\]"
 
-    return KEY.sub(link, text)
+    return BRACKETS.sub(link, text)
+
+
+def _link(found: re.Match) -> str:
+    full = SOURCES.get(found[0], "").replace('"', "'")
+    return f'[{found[0]}]({address(found[0])} "{full}")' if full else found[0]

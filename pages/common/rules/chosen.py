@@ -4,6 +4,7 @@ import streamlit as st
 
 from pages.common.parts.panel import show
 from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.sources import linked
 from pages.common.parts.symbols import sentence
 from pages.common.rules import words
 from pages.common.rules.curves import PRESENT_NAME
@@ -17,7 +18,6 @@ from simc_core import RULES
 from simc_core.controllers.forms import Controller
 from simc_core.figures import input_figure, output_figure
 from simc_core.notation import latex
-from simc_core.published.sources import SOURCES
 from simc_core.studies.comparison import Row
 
 HEIGHT = 190  # px
@@ -26,8 +26,7 @@ HEIGHT = 190  # px
 def word(row: Row, question: Question) -> None:
     """Name and source, settings, what the rule was made for, and how it does here."""
     rule = RULES.get(row.key)
-    source = rule.source.strip("[]") if rule else ""
-    st.markdown(f"**{title_of(row)}**" + (f", {source}" if rule else ""), help=SOURCES.get(source) if rule else None)
+    st.markdown(f"**{title_of(row)}**" + (f", {linked(rule.source)}" if rule else ""))
     if row.controller is None:
         st.info(sentence(row.refusal))
     else:

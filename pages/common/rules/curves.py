@@ -88,12 +88,6 @@ def plane_points(rows: Sequence[Row]) -> list[Point]:
     ]
 
 
-def plane_point(study: Study, name: str = PRESENT_NAME) -> Point | None:
-    """A design in the plane; None where it is no PI controller."""
-    pair = plane_pair(study.controller)
-    return Point("", name, "PI", *pair) if pair else None
-
-
 def plane_pair(controller: Controller) -> tuple[float, float] | None:
     """|Kc| and tau_I of a PI controller, None of any other."""
     if kind_of(controller) != "PI" or isinstance(controller, IController):

@@ -4,20 +4,21 @@ from collections.abc import Sequence
 
 import streamlit as st
 
+from pages.common.live import plane_instrument
 from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
 from pages.common.rules import curves
-from pages.common.rules.table import Question, frame, key_of, rows_of, shown
+from pages.common.rules.plane import ground as ground_of
+from pages.common.rules.table import Question, frame, key_of, rows_of, shown, title_of
 from pages.common.session import state
 from pages.common.session.compared import KINDS, OPTIMAL, PRESENT, USUAL
-from pages.common.session.design import Design
+from pages.common.session.design import Design, Excitation
 from pages.common.studies.measures import EXAMPLES, MEANINGS, MEASURES
-from pages.common.studies.single import Study
-from simc_core.figures import trade_off_figure, tuning_plane_figure
+from pages.common.studies.single import Study, study_of_settings
+from simc_core.figures import trade_off_figure
 from simc_core.figures.rules import Point
 from simc_core.notation import latex, plain
 from simc_core.studies.comparison import Row
-from simc_core.studies.tuning_plane import tuning_plane
 
 CRITERIA = {"load": "IAE load", "setpoint": "IAE set point", "J": "J"}
 AXES = {
@@ -104,7 +105,9 @@ def table(question: Question) -> list[Row]:
     """All rows; while they are computed the table grows."""
     made, rows = rows_of(question), []
     sheet = state.design_now().sheet
-    bar, place, growing = st.empty(), st.empty(), not made.complete
+    bar, place, growing = st.container(), st.container(), not made.complete
+    if growing:  # a table that is there stays there: emptied for a moment, it would move the page under the hand
+        bar, place = bar.empty(), place.empty()
     more = st.multiselect(
         "More columns",
         list(MEASURES),
@@ -118,7 +121,8 @@ def table(question: Question) -> list[Row]:
         if growing and len(rows) % AT_ONCE == 0:
             bar.progress(len(rows) / question.total, f"{len(rows)} of {question.total} rules")
             place.dataframe(shown(frame(rows, question, sheet)), hide_index=True, height=TALL, row_height=ROW)
-    bar.empty()
+    if growing:
+        bar.empty()
     state.remember("rules_rows", [key_of(row) for row in rows])
     found = frame(rows, question, sheet, more)
     place.dataframe(
@@ -178,9 +182,9 @@ def chosen_of(rows: Sequence[Row], design: Design) -> Row | None:
     return next((row for row in rows if row.controller and row.key != OPTIMAL), None)
 
 
-def picture(question: Question, rows: Sequence[Row], chosen: Row | None, present: Study | None) -> None:
-    """The error over the peak, or the settings of PI rules in their plane; a click picks a rule."""
-    which = st.segmented_control(
+def which_picture() -> str:
+    """One of PICTURES."""
+    return st.segmented_control(
         "Picture",
         PICTURES,
         default=PICTURES[0],
@@ -189,42 +193,43 @@ def picture(question: Question, rows: Sequence[Row], chosen: Row | None, present
         persist_state="session",
         label_visibility="collapsed",
     )
-    if which == PICTURES[0]:
-        points = curves.rule_points(question, rows)
-        figure = trade_off_figure(
-            curves.fronts(question),
-            curves.simc_over_tau_c(question),
-            points,
-            _of(points, chosen),
-            present and curves.trade_off_point(question, present),
-            AXES[question.criterion],
-            HEIGHT,
-        )
-        show(
-            figure,
-            "rules_trade_off",
-            "Error of each rule over its Mst, with the best that PI and PID can do",
-            _picked_in_picture,
-        )
-        st.caption("No controller of its kind lies below a front. Click a rule to draw it; double-click shows all.")
-        return
-    points = curves.plane_points(rows)
-    figure = tuning_plane_figure(
-        tuning_plane(question.plant),
-        curves.best_settings(question),
-        curves.simc_settings(question),
+
+
+def trade_off(question: Question, rows: Sequence[Row], chosen: Row | None, present: Study | None) -> None:
+    """The error over the peak; a click picks a rule."""
+    points = curves.rule_points(question, rows)
+    figure = trade_off_figure(
+        curves.fronts(question),
+        curves.simc_over_tau_c(question),
         points,
         _of(points, chosen),
-        present and curves.plane_point(present),
+        present and curves.trade_off_point(question, present),
+        AXES[question.criterion],
         HEIGHT,
     )
     show(
         figure,
-        "rules_plane",
-        "PI settings of each rule over contours of Mst and the limit of stability",
+        "rules_trade_off",
+        "Error of each rule over its Mst, with the best that PI and PID can do",
         _picked_in_picture,
     )
-    st.caption("PI controllers. Dashed: contours of Mst = max(Ms, Mt). Click a rule to draw it.")
+    st.caption("No controller of its kind lies below a front. Click a rule to draw it; double-click shows all.")
+
+
+def plane(question: Question, rows: Sequence[Row], chosen: Row | None, present: Study | None, design: Design) -> None:
+    """PI settings in their plane: a point to drag, the responses beside it."""
+    behind = []
+    if chosen is not None and chosen.controller is not None:
+        behind.append((title_of(chosen), study_of_settings(question.plant, chosen.controller)))
+    with st.spinner("Computing contours and the best settings"):
+        ground = ground_of(question, rows, chosen, present, question.plant == design.plant)
+    excitation = design.excitation if ground.mine else Excitation()
+    plane_instrument(ground, behind, excitation, lambda key: state.change(compared_rule=key))
+    st.caption(
+        "PI controllers. Drag the point, or move it by its arrow keys: "
+        + ("released, it is my settings. " if ground.mine else "this plant is not that of the design, which stays. ")
+        + "Click a rule to draw it."
+    )
 
 
 def _of(points: Sequence[Point], row: Row | None) -> Point | None:

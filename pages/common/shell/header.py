@@ -32,7 +32,7 @@ EMBEDDED = (  # the line begins beside the button that opens the sidebar
 )
 CHAIN = ("plant", "half_rule", "tuning", "cascade")
 NO_LOOP = ("lessons", "sources")  # pages that are about no loop of one's own
-BESIDE = {"lessons": ("lesson", "step")}  # parameters of a page beside those of the design
+BESIDE = {"lessons": ("lesson", "step"), "sources": ("source",)}  # parameters of a page beside those of the design
 
 
 def go(place: str) -> None:

@@ -44,9 +44,10 @@ def _take_kept() -> None:
 
 
 def _switch() -> None:
-    if state.overtaken("loop"):
+    chosen = state.widget("loop")
+    if state.overtaken("loop") or not isinstance(chosen, int):  # the browser told a name that has changed meanwhile
         return
-    state.take_loops(state.loops().switched(state.widget("loop")))
+    state.take_loops(state.loops().switched(chosen))
 
 
 def _add() -> None:

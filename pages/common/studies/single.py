@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, replace
 import numpy as np
 
 from pages.common.session.design import Design, Excitation, Tuning
+from pages.common.shared import shared
 from simc_core.controllers.forms import Controller
 from simc_core.errors import NotStable, SimcError
 from simc_core.loops.frequency_grid import omega_grid
@@ -23,6 +24,7 @@ from simc_core.simulation import TimeResponse, simulate
 from simc_core.simulation.horizon import times
 from simc_core.studies.tuned import Tuned, tuned
 
+STUDIES = 128  # that are kept for whoever asks again, some kB each
 UNKNOWN = StepMetrics(*[math.nan] * len(StepMetrics.__slots__))
 
 
@@ -66,6 +68,7 @@ class Study:
         return self.margins.stable
 
 
+@shared(STUDIES)
 def study(plant: Plant, tuning: Tuning) -> Study:
     """Reduce, tune, close the loop, judge it. Raises SimcError, in words, where one of these is impossible."""
     found = tuned(plant, **asdict(tuning))
@@ -87,6 +90,7 @@ def present_study(design: Design) -> Study:
     return study(design.plant, design.tuning)
 
 
+@shared(STUDIES)
 def study_of_settings(plant: Plant, controller: Controller) -> Study:
     """Settings that were typed, around this plant: no model and no rule stand behind them."""
     found = judged_settings(plant, controller)

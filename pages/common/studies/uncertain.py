@@ -19,6 +19,7 @@ from simc_core.studies.tuned import tuned
 MEMBERS = 40  # that are simulated, of all structures together
 POINTS = 300
 LONGEST, STEPS = 10.0, 20  # times theta, up to which tau_c is tried
+LOWEST = 55  # point of the grid, from which |S| is drawn
 FEWEST = 5  # plants, from which there is a band
 Array = np.ndarray
 
@@ -41,7 +42,7 @@ def peaks_of(uncertainty: tuple[Uncertainty, ...], controller: Controller) -> Ar
 def sensitivity(uncertainty: tuple[Uncertainty, ...], controller: Controller) -> tuple[Array, Array]:
     """omega, and |S| of all of them, the model first."""
     drawn = clouds(uncertainty)
-    omega = grid(drawn)[40::2]
+    omega = grid(drawn)[LOWEST::2]
     C = controller.response(1j * omega)
     return omega, np.concatenate([1 / np.abs(1 + cloud.response(omega) * C) for cloud in drawn])
 

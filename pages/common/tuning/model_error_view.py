@@ -24,7 +24,7 @@ from simc_core.studies.plant_family import Robustness, robustness
 
 HEIGHT = 420  # px
 POINTS = 400
-ERRORS = ("As the record leaves open", "In per cent")
+ERRORS = ("From the record", "In per cent")
 
 
 def model_error_view(study: Study, design: Design) -> None:

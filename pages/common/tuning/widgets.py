@@ -11,6 +11,7 @@ from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
 from pages.common.parts.settings_text import ACTIONS, UNITS, as_text, form_shown, sizes
 from pages.common.parts.settings_text import structure as formula
+from pages.common.parts.sources import linked
 from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
 from pages.common.session.design import KINDS
@@ -38,7 +39,7 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
     model, tau_c = study.model, study.tau_c
     if isinstance(model, UnstableDelay):
         st.markdown(f"$\\tau_c = \\theta$ = **{time_text(tau_c, state.design_now().sheet)}**")
-        st.caption("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24].")
+        st.caption(linked("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24]."))
         st.caption(model_in_use(model))
         return
     place = st.container()

@@ -10,7 +10,7 @@ from simc_core.identification.estimator.outliers import spikes
 from simc_core.identification.trend import Trend
 
 OFTEN = 0.3  # moves of OP for each sample, from where it moves all the time
-MANY_MOVES = 100  # more than these, and a mean may take in a move of OP: they are everywhere
+MANY_MOVES = 100  # more than these, and means are all of one size, and may take in a move of OP
 GAP = 20  # intervals, and
 LONG = 0.1  # share of the whole time, without a sample: a gap
 
@@ -43,6 +43,20 @@ class Record:
         ends = np.concatenate([[-1], np.flatnonzero(self.gaps), [self.t.size - 1]])
         return float(np.max(self.t[ends[1:]] - self.t[ends[:-1] + 1]))
 
+    def _rising(self, points: int) -> NDArray[np.intp]:
+        """A label for each sample: of those that share one, the longer ago the last move of OP, the more.
+
+        A process answers a move soon and settles late: so its dead time is told as well, as a share of itself, where a
+        record is far longer than the answers in it as where it is not.
+        """
+        begins = np.concatenate([[0], np.searchsorted(self.t, self.held.s, "left")])
+        begins = np.unique(np.clip(begins, 0, self.t.size))
+        since = np.arange(self.t.size) - begins[np.searchsorted(begins, np.arange(self.t.size), "right") - 1]
+        counts = np.diff(np.append(begins, self.t.size))
+        growth = _growth(counts[counts > 0], points)
+        own = np.floor(np.log1p(growth * since) / np.log1p(growth)).astype(np.intp)
+        return np.cumsum(np.concatenate([[0], (np.diff(own) != 0) | (np.diff(since) <= 0)])).astype(np.intp)
+
     def weighted(self, weight: Array) -> "Record":
         """The same samples with other weights."""
         return Record(self.t, self.y, weight, self.held, self.span, self.interval, self.even)
@@ -52,16 +66,26 @@ class Record:
         move of OP where these are few."""
         if self.t.size <= points:
             return self
-        label = np.arange(self.t.size) * points // self.t.size
+        label = (
+            self._rising(points) if self.held.s.size <= MANY_MOVES else np.arange(self.t.size) * points // self.t.size
+        )
         label = label + np.concatenate([[0], np.cumsum(self.gaps)])
-        if self.held.s.size <= MANY_MOVES:
-            label = label + np.searchsorted(self.held.s, self.t, "right")
         label = np.unique(label, return_inverse=True)[1]
         weight = np.bincount(label, self.weight).astype(float)
         kept = weight > 0
         t = np.bincount(label, self.weight * self.t)[kept] / weight[kept]
         y = np.bincount(label, self.weight * self.y)[kept] / weight[kept]
         return Record(t, y, weight[kept], self.held, self.span, self.interval, False)
+
+
+def _growth(counts: NDArray[np.intp], points: int) -> float:
+    """What a mean grows by from one to the next, so that stretches of `counts` samples have `points` of them."""
+    low, high = 1e-9, 10.0
+    for _ in range(40):
+        middle = (low * high) ** 0.5
+        many = float(np.sum(np.log1p(middle * counts) / np.log1p(middle)))
+        low, high = (middle, high) if many > points else (low, middle)
+    return high
 
 
 def as_record(trend: Trend, between_samples: bool) -> Record:

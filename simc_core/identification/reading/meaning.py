@@ -6,7 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from simc_core.controllers.forms import Controller
 from simc_core.errors import DataError, SimcError
+from simc_core.identification.experiments.known_controller import COMPUTED, op_of_controller
 from simc_core.identification.reading.cleaning import HOUR, first_is_rubbish, in_order, without_repeats
 from simc_core.identification.reading.columns import QUALITY, Column
 from simc_core.identification.reading.historian import by_tags, is_long
@@ -55,6 +57,7 @@ def understand(
     time_unit: str | None = None,
     period: float | None = None,
     day_first: bool | None = None,
+    controller: Controller | None = None,
 ) -> Reading:
     """What the columns are, and the trend they make; parameters as of `read_trend`.
 
@@ -78,11 +81,15 @@ def understand(
     times = [i for i in axis.columns if i >= 0]
     names["time"] = table.columns[times[0]].name if times and found is table.columns else ""
     choices = tuple(found[i].name for i in candidates)
-    refusal = _refusal(axis, roles.at)
+    computed = controller is not None and roles.at["OP"] is None and roles.at["SP"] is not None
+    refusal = _refusal(axis, roles.at | ({"OP": roles.at["SP"]} if computed else {}))
     trend = None
     if not refusal:
-        trend, mended, refusal = _trend(found, axis, roles.at)
+        trend, mended, refusal = _trend(found, axis, roles.at | ({"OP": roles.at["SP"]} if computed else {}))
         understood += mended
+        if computed and controller is not None and trend is not None:
+            trend = op_of_controller(trend, controller)
+            understood.append(COMPUTED)
         trend = trend and replace(trend, notes=tuple(understood))
     return Reading(trend, names, choices, tuple(understood), questions, refusal)
 
@@ -107,6 +114,7 @@ def _refusal(axis: TimeAxis, at: Mapping[str, int | None]) -> str:
         return (
             "no column is the controller output (OP). A model tells how PV follows OP: log both, and SP, "
             "and repeat the test"
+            + ("; or, if the set point moved, tell the controller, controller=..." if at["SP"] is not None else "")
         )
     return ""
 

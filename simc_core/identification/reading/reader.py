@@ -5,6 +5,7 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
+from simc_core.controllers.forms import Controller
 from simc_core.errors import DataError
 from simc_core.identification.reading.columns import read_columns
 from simc_core.identification.reading.decode import MOST_BYTES, decoded
@@ -33,6 +34,7 @@ def read_trend(
     day_first: bool | None = None,
     encoding: str | None = None,
     sheet: str | None = None,
+    controller: Controller | None = None,
 ) -> Trend:
     """A trend from a file or a paste, as people have them.
 
@@ -54,6 +56,8 @@ def read_trend(
         Of dates like 03/04/2024.
     encoding, sheet : str, optional
         Of a text file; of a spreadsheet file.
+    controller : controller, optional
+        That was in the loop, where OP was not written down: it is computed, see `op_of_controller`.
 
     Returns
     -------
@@ -72,7 +76,9 @@ def read_trend(
     ([20.5, 20.5, 21.5], [30.0, 40.0, 40.0], 'min')
     """
     table = load(source, decimal=decimal, delimiter=delimiter, day_first=day_first, encoding=encoding, sheet=sheet)
-    reading = understand(table, columns=columns, time_unit=time_unit, period=period, day_first=day_first)
+    reading = understand(
+        table, columns=columns, time_unit=time_unit, period=period, day_first=day_first, controller=controller
+    )
     if reading.trend is None:
         raise DataError(reading.refusal)
     return reading.trend

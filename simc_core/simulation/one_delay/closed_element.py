@@ -11,7 +11,7 @@ With process_maps.py's maps p, p', int p are matrices times (w at the nodes, x_0
 r and d are the steps themselves, which stay; rF_0 is there only with a filter.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +20,7 @@ from simc_core.controllers.forms import ParallelPid
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.elements import TO_CHEBYSHEV
 from simc_core.simulation.one_delay.element_sizes import EYE, Elements, ElementSizes
-from simc_core.simulation.one_delay.process_maps import SIGNALS
+from simc_core.simulation.one_delay.process_maps import EVERY, SIGNALS, Chosen
 from simc_core.simulation.one_delay.step_control import MIDDLE
 
 SPECTRUM = TO_CHEBYSHEV[
@@ -57,6 +57,7 @@ class ClosedElements:
         self.Ki, self.ahead, self.kick = values[:, 2:3], values[:, 3:4], values[:, 4:]
         self.size = levels.chain.n + 3 + self.filtered  # of x
         self._made: dict[int, OnLevel] = {}
+        self._known: dict[int, np.ndarray] = {}  # which tunings a level is made for, where not for all
 
     def start(self) -> np.ndarray:
         """x at t = 0 for unit steps of r and of d, (n, size, 2)."""
@@ -74,28 +75,56 @@ class ClosedElements:
             self._made |= zip(elements.levels, made, strict=True)
         return self._made[level]
 
-    def _on(self, elements: Elements) -> np.ndarray:
-        """G on each of the levels, (L, n, END + size, P + size)."""
-        L, n, own = len(elements.levels), len(self.gains), P + self.levels.chain.n  # own: columns of the plant's maps
+    def known(self, level: int, which: list[int], likely: Callable[[], list[int]]) -> OnLevel:
+        """The level, right for the tunings `which` at least.
+
+        likely: others that will need it; what plants of their own do is made for these at once, and for no more.
+        """
+        if self.levels.alone or (level in self._made and level not in self._known):
+            return self[level]
+        if level not in self._made:
+            n = len(self.gains)
+            G = np.empty((n, END + self.size, P + self.size))
+            self._made[level] = OnLevel(G, np.empty((n, P, P)), np.empty((n, P, self.size)))
+            self._known[level] = np.zeros(n, dtype=bool)
+        known, found = self._known[level], self._made[level]
+        if not known[which].all():
+            wanted = np.array([i for i in {*which, *likely()} if not known[i]])
+            elements = self.levels.of([level], wanted)
+            G = self._on(elements, wanted)
+            back = elements.B[:, None] @ G[:, :, Z]
+            found.G[wanted], found.one_less[wanted], found.begun[wanted] = (
+                G[0],
+                EYE - back[0, ..., :P],
+                back[0, ..., P:],
+            )
+            known[wanted] = True
+        return found
+
+    def _on(self, elements: Elements, which: Chosen = EVERY) -> np.ndarray:
+        """G on each of the levels, (L, n, END + size, P + size), of the tunings `which`."""
+        gains = self.gains[which]
+        L, n, own = len(elements.levels), len(gains), P + self.levels.chain.n  # own: columns of the plant's maps
         xi, r, d, rF = range(own, own + 4)
         begin = END - P  # from the column to the row of each
-        nodes, Ki, tau_F = elements.nodes[:, None], self.Ki, self.tau_F
+        nodes, Ki, tau_F = elements.nodes[:, None], self.Ki[which], self.tau_F[which if len(self.tau_F) > 1 else EVERY]
+        ahead, kick = self.ahead[which], self.kick[which]
         G = np.zeros((L, n, END + self.size, P + self.size))
         y, ends = elements.signals[0].swapaxes(0, 1), elements.ends.swapaxes(0, 1)  # (L, plants, ...)
         integral = elements.signals[3, :, :, -1].swapaxes(0, 1)
         G[:, :, Y, :own] = y
-        G[:, :, Z, :own] = -self._fed_back(elements).swapaxes(0, 1)
+        G[:, :, Z, :own] = -_fed_back(gains, elements).swapaxes(0, 1)
         G[:, :, Z, xi] = G[:, :, Z, d] = 1.0
-        G[:, :, Z, r] = self.ahead + Ki * nodes
+        G[:, :, Z, r] = ahead + Ki * nodes
         G[:, :, END : begin + own, :own] = ends
         G[:, :, begin + xi, :own] = -Ki * integral
         G[:, :, begin + xi, r] = Ki[:, 0] * elements.length[:, None]
         G[:, :, begin + xi, xi] = G[:, :, begin + r, r] = G[:, :, begin + d, d] = 1.0
         if self.filtered:
             late, risen = np.exp(nodes / -tau_F), -np.expm1(nodes / -tau_F)  # risen: 1 - late, without cancellation
-            slope, gained = self.kick / tau_F * late, Ki * tau_F * risen
-            G[:, :, Z, r] = self.ahead * risen + slope + Ki * nodes - gained
-            G[:, :, Z, rF] = self.ahead * late - slope + gained
+            slope, gained = kick / tau_F * late, Ki * tau_F * risen
+            G[:, :, Z, r] = ahead * risen + slope + Ki * nodes - gained
+            G[:, :, Z, rF] = ahead * late - slope + gained
             G[:, :, begin + xi, r] -= gained[..., -1]
             G[:, :, begin + xi, rF] = gained[..., -1]
             G[:, :, begin + rF, r], G[:, :, begin + rF, rF] = risen[..., -1], late[..., -1]
@@ -103,10 +132,11 @@ class ClosedElements:
         G[:, :, 2 * P : END] = spectra.reshape(L, n, 2, 2, 2, -1).swapaxes(2, 3).reshape(L, n, 8, -1)
         return G
 
-    def _fed_back(self, elements: Elements) -> np.ndarray:
-        """Kp p + Kd p' + Ki int p at the nodes, (n, L, P, own)."""
-        n, measured = len(self.gains), elements.signals[1:]
-        if measured.shape[1] == 1:
-            return (self.gains @ measured.reshape(SIGNALS - 1, -1)).reshape(n, *measured.shape[2:])
-        weights = self.gains.T[:, :, None, None, None]
-        return weights[0] * measured[0] + weights[1] * measured[1] + weights[2] * measured[2]
+
+def _fed_back(gains: np.ndarray, elements: Elements) -> np.ndarray:
+    """Kp p + Kd p' + Ki int p at the nodes, (n, L, P, own)."""
+    n, measured = len(gains), elements.signals[1:]
+    if measured.shape[1] == 1:
+        return (gains @ measured.reshape(SIGNALS - 1, -1)).reshape(n, *measured.shape[2:])
+    weights = gains.T[:, :, None, None, None]
+    return weights[0] * measured[0] + weights[1] * measured[1] + weights[2] * measured[2]

@@ -14,7 +14,7 @@ from numpy.polynomial import chebyshev
 from simc_core.plants.plant import Plant
 from simc_core.simulation.collocation.elements import NODES, TO_CHEBYSHEV, mesh
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
-from simc_core.simulation.one_delay.process_maps import ProcessMaps
+from simc_core.simulation.one_delay.process_maps import EVERY, Chosen, ProcessMaps
 
 AHEAD, MORE = 8, 4  # levels made at once of one plant: at first, and when these do not reach; of several as needed
 EYE = np.eye(P)
@@ -64,10 +64,13 @@ class ElementSizes:
         return self.unit * 2.0**level
 
     def _make(self, wanted: list[int]) -> None:
+        self._made |= dict.fromkeys(wanted, self.of(wanted, EVERY))
+
+    def of(self, wanted: list[int], which: Chosen) -> Elements:
+        """Elements of these levels for some of the plants, made anew."""
         length = self.unit * 2.0 ** np.array(wanted)
         B = np.array([_within(each) for each in wanted]) if self.theta else EYE[None]
-        made = Elements(tuple(wanted), length, length[:, None] * NODES, B, *self.chain.elements(length))
-        self._made |= dict.fromkeys(wanted, made)
+        return Elements(tuple(wanted), length, length[:, None] * NODES, B, *self.chain.elements(length, which))
 
     def history(self, before: int, level: int) -> np.ndarray:
         """From z at the nodes of the element before to z(t - theta) at those of the next, as far as it lies there.

@@ -44,6 +44,7 @@ from simc_core.simulation.one_delay.limits import (
     together,
     too_much,
 )
+from simc_core.simulation.one_delay.process_maps import Chosen
 from simc_core.simulation.one_delay.step_control import GONE, REST, TAIL, StepControl
 from simc_core.simulation.one_delay.unit_responses import Batch, UnitResponses, course
 
@@ -51,8 +52,6 @@ SMOOTH = 7  # order of derivative from which a jump is left to the tails
 MOST_INTERVALS = 3 * SMOOTH  # of theta that are stepped over first
 COARSE, FINEST = 1e-10, 4  # a tail on the mesh that is too large, and how often the mesh is halved for it
 CUT_OFF = 1e150  # an unstable response is cut off here
-
-Chosen = slice | np.ndarray  # some of the tunings, or all of them, along the first axis of an array
 
 
 def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most: float | None = None) -> UnitResponses:
@@ -259,11 +258,15 @@ class March:
 
     def _element(self, which: list[int], at: Chosen, level: int) -> list[np.ndarray]:
         """One element of theta 2^level, w and z together."""
-        x, closed = self.x[at], self.closed[level]
+        x, closed = self.x[at], self.closed.known(level, which, lambda: self._as_short(level))
         right = closed.begun[at] @ x
         if self.theta:
             right += self._history(which, level) @ (self.z[at, -P:] if self.controls[which[0]].before else self.z[at])
         return [closed.G[at] @ np.concatenate([_solved(closed.one_less[at], right), x], axis=1)]
+
+    def _as_short(self, level: int) -> list[int]:
+        """Tunings on their way whose elements are not longer than this yet."""
+        return [i for i in self.active if self.controls[i].level <= level]
 
     def _history(self, which: list[int], level: int) -> np.ndarray:
         """levels.history for each tuning, one matrix where all are alike."""

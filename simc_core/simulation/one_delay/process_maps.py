@@ -27,9 +27,12 @@ from simc_core.loops.loop import factored_plant
 from simc_core.plants.plant import Plant
 from simc_core.simulation.collocation.elements import COLLOCATION
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
+from simc_core.simulation.collocation.shifted import solved
 
 SIGNALS = 4  # y, p, p', integral of p
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
+Chosen = slice | np.ndarray  # some of the plants, or all of them, along the first axis of an array
+EVERY = slice(None)
 EYE = np.eye(P)
 
 
@@ -58,22 +61,25 @@ class ProcessMaps:
         self.modes = modes(factored[0], tau_F[0]) * units[0]
         self.relative_degree = factored[0].relative_degree
 
-    def elements(self, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Of single elements: signals (4, m, lengths, P, P + n) and states at the end (m, lengths, n, P + n)."""
-        n, count = self.n, len(lengths)
-        K = lengths[:, None, None] * COLLOCATION
-        v, ends = np.zeros((self.count, count, P, P + n)), np.zeros((self.count, count, n, P + n))
-        v[:, :, :, :P] = self.gain * EYE
+    def elements(self, lengths: np.ndarray, which: Chosen = EVERY) -> tuple[np.ndarray, np.ndarray]:
+        """Of single elements: signals (4, m, lengths, P, P + n) and states at the end (m, lengths, n, P + n).
+
+        which: of the plants, m of them.
+        """
+        gain, tau_F = self.gain[which], self.tau_F[which, None, None, None]
+        n, m, count, length = self.n, len(gain), len(lengths), lengths[:, None, None]
+        v, ends = np.zeros((m, count, P, P + n)), np.zeros((m, count, n, P + n))
+        v[:, :, :, :P] = gain * EYE
         slope, used = np.zeros_like(v), 0
         for num, den in self.sections:
-            v, slope, used = _section(num, den, K, v, ends, used)
-        outputs = np.empty((SIGNALS, self.count, count, P, P + n))
+            v, slope, used = _section(_of(num, which), _of(den, which), length, v, ends, used)
+        outputs = np.empty((SIGNALS, m, count, P, P + n))
         outputs[0] = v
         if self.filtered:
-            one = np.ones((self.count, 1, 1, 1))
-            filter_ = (0 * one, self.tau_F[:, None, None, None], one)
-            v, slope, used = _section((0 * one, 0 * one, one), filter_, K, v, ends, used)
-        outputs[1], outputs[2], outputs[3] = v, slope, K @ v
+            one = np.ones((m, 1, 1, 1))
+            v, slope, used = _section((0 * one, 0 * one, one), (0 * one, tau_F, one), length, v, ends, used)
+        outputs[1], outputs[2] = v, slope
+        np.matmul(length * COLLOCATION, v, out=outputs[3])
         return outputs, ends
 
 
@@ -95,25 +101,30 @@ def _rows(rows: Sequence[Row]) -> Rows:
     return a, b, c
 
 
+def _of(rows: Rows, which: Chosen) -> Rows:
+    a, b, c = rows
+    return a[which], b[which], c[which]
+
+
 def _section(
-    num: Rows, den: Rows, K: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int
+    num: Rows, den: Rows, length: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int
 ) -> tuple[np.ndarray, np.ndarray, int]:
     """One section: its output and the slope of it, and the next free state; the states at the end go into `ends`.
 
     The slope is right where the section is strictly proper.
     """
     (b2, b1, b0), (a, b, c) = num, den
-    right, x_0 = v.copy(), P + used
+    K, right, x_0 = length * COLLOCATION, v.copy(), P + used
     right[..., x_0] -= c[..., 0]
     if not a.any():
-        W = np.linalg.solve(b * EYE + c * K, right) if c.any() else right / b
+        W = solved(b, c, a, length, right) if c.any() else right / b
         x = K @ W
         x[..., x_0] += 1.0
         ends[:, :, used] = x[:, :, -1]
         return (b0 * x + b1 * W if b1.any() else b0 * x), b0 * W, used + 1
     ramp = K.sum(axis=2)  # K applied to 1
     right[..., x_0 + 1] -= b[..., 0] + c[..., 0] * ramp
-    W = np.linalg.solve(a * EYE + b * K + c * (K @ K), right)
+    W = solved(a, b, c, length, right)
     first = K @ W
     first[..., x_0 + 1] += 1.0
     x = K @ first

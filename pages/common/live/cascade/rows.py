@@ -21,7 +21,7 @@ from simc_core.plants.models import Model
 from simc_core.simulation import Scenario, simulate
 from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
 
-PER_DECADE = 6
+PER_DECADE = 3
 MOST_ROWS = 80  # of one section
 LOOKED_AT = 25  # speeds at which a change of branch or of the verdict is looked for
 NEAR = 1e-5  # relative: to which its place is known

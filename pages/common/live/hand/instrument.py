@@ -18,7 +18,7 @@ KEYS = {True: "live_settings", False: "live_plant"}
 
 
 @dataclass(slots=True)
-class _Turned(Held):
+class Turned(Held):
     """Also where the knobs are."""
 
     values: dict[str, float] = field(default_factory=dict)
@@ -31,7 +31,7 @@ def hand_instrument(present: Study, behind: list[tuple[str, Study]], settings: b
     Settings that are dragged become my settings; a plant that is dragged is a question and changes nothing.
     """
     key = KEYS[settings]
-    held = state.memory(key, _Turned)
+    held = state.memory(key, Turned)
     if not _stands_for(held, present, settings):
         held.subject = table.Subject(present.loop.plant, present.controller, settings)
         held.values = table.values_of(held.subject)
@@ -52,7 +52,7 @@ def hand_instrument(present: Study, behind: list[tuple[str, Study]], settings: b
     return study_of_settings(loop.plant, loop.controller)
 
 
-def _stands_for(held: _Turned, present: Study, settings: bool) -> bool:
+def _stands_for(held: Turned, present: Study, settings: bool) -> bool:
     """Whether the knobs, where they are, belong to this design, so that their ranges may stay."""
     if held.subject is None or held.subject.plant != present.loop.plant:
         return False
@@ -62,14 +62,14 @@ def _stands_for(held: _Turned, present: Study, settings: bool) -> bool:
 
 def put_back() -> None:
     """The plant as it is."""
-    held = state.memory(KEYS[False], _Turned)
+    held = state.memory(KEYS[False], Turned)
     if held.subject is not None:
         held.values = table.values_of(held.subject)
 
 
 def _take(release: Mapping, settings: bool) -> None:
     """The knobs have come to rest."""
-    held = state.memory(KEYS[settings], _Turned)
+    held = state.memory(KEYS[settings], Turned)
     try:
         values = table.allowed(held.subject, release["values"])
         loop = held.subject.at(values)

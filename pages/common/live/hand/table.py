@@ -4,7 +4,7 @@ Knobs hold sizes without sign: a negative gain keeps its sign while it is dragge
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -45,12 +45,14 @@ KNOB_UNITS = {**UNITS, "theta": "time", "tau1": "time"}
 class Subject:
     """What is turned. settings: the knobs are those of the controller, else those of the plant.
 
-    plant, controller: where the knobs were when they were offered; their ranges follow from these.
+    plant, controller: where the knobs were when they were offered; their ranges follow from these, or are `within`:
+    (name, low, high) of the knobs that are offered.
     """
 
     plant: Plant
     controller: Controller
     settings: bool
+    within: tuple[tuple[str, float, float], ...] = ()
 
     def at(self, values: dict[str, float]) -> Loop:
         """The loop with the knobs there. Raises InvalidParameter for values out of bounds."""
@@ -73,6 +75,10 @@ def turned_plant(plant: Plant, values: dict[str, float]) -> Plant:
 
 def knobs(subject: Subject) -> list[dict]:
     """Name, words, value and range of each knob."""
+    if subject.within:
+        values = subject.controller.settings
+        ranges = {name: {"low": low, "high": high} for name, low, high in subject.within}
+        return [_knob(subject, name, abs(values[name])) | ranges[name] for name in ranges]
     if subject.settings:
         values = {name: value for name, value in subject.controller.settings.items() if math.isfinite(value)}
     else:
@@ -113,8 +119,15 @@ def _usual(subject: Subject, name: str) -> float:
     return gain * time / 2 if name == "Kd" else gain / (4 * time)
 
 
-def setup(subject: Subject, grid: Grid, present: Study, behind: Sequence[tuple[str, Study]], name: str) -> bytes:
-    """What does not change while a knob moves. behind: designs that are drawn behind, by name."""
+def setup(
+    subject: Subject,
+    grid: Grid,
+    present: Study,
+    behind: Sequence[tuple[str, Study]],
+    name: str,
+    more: Mapping[str, object] | None = None,
+) -> bytes:
+    """What does not change while a knob moves. behind: designs that are drawn behind, by name. more: of the header."""
     plant = {field: getattr(subject.plant, field) for field in Plant.__slots__}
     header = {
         "kind": "setup",
@@ -128,6 +141,7 @@ def setup(subject: Subject, grid: Grid, present: Study, behind: Sequence[tuple[s
         "omega": grid.omega.tolist(),
         **judgement(CELLS),
         "pins": [{"name": letter} for letter, _ in behind],
+        **(more or {}),
     }
     y, u, *_ = responses(present.loop, grid)
     of_stable = present.stable
@@ -148,13 +162,24 @@ def _controller(controller: Controller) -> dict:
     return {"form": form, "settings": settings, **dict(zip(("tau_F", "b", "c"), weights, strict=True))}
 
 
-def exact(subject: Subject, grid: Grid, values: dict[str, float], name: str, answers: int, sheet: Sheet) -> bytes:
-    """The picture at these values without the engine of the browser. name: of the setup; answers: the release."""
+def exact(
+    subject: Subject,
+    grid: Grid,
+    values: dict[str, float],
+    name: str,
+    answers: int,
+    sheet: Sheet,
+    to: str = "hand",
+) -> bytes:
+    """The picture at these values without the engine of the browser.
+
+    name: of the setup.   answers: the release.   to: the instrument that shows it.
+    """
     loop = subject.at(values)
     each = study_of_settings(loop.plant, loop.controller)
     header = {
         "kind": "exact",
-        "to": "hand",
+        "to": to,
         "setup": name,
         "values": values,
         "answers": answers,
@@ -187,8 +212,8 @@ def allowed(subject: Subject, values: dict) -> dict[str, float]:
     return found
 
 
-def setup_name(subject: Subject, grid: Grid, behind: Sequence[tuple[str, Study]]) -> str:
+def setup_name(subject: Subject, grid: Grid, behind: Sequence[tuple[str, Study]], *more: object) -> str:
     """Same name, same setup."""
     return name_of(
-        subject, grid.excitation, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind]
+        subject, grid.excitation, float(grid.t[-1]), len(grid.t), [(letter, each.loop) for letter, each in behind], more
     )

@@ -3,8 +3,10 @@
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
-from pages.common.live.kit.shared_tables import TABLES
+from pages.common.shared import Shared
 
+MOST_BYTES = 64_000_000  # a table has 0.1 to 1 MB
+TABLES: Shared[bytes] = Shared(MOST_BYTES, len)
 SHORT_OF, BEYOND = 0.35, 1.25  # of the horizon on the screen: a design that needs as much is still well shown on it
 
 

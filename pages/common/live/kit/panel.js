@@ -9,7 +9,7 @@ export const ALARM = "--simc-alarm";
 export class Panel {
   /**
    * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)},
-   * styles [{color, dash, width, alpha, aid}], aid: it only helps the eye;   square: one unit is as long on both axes.
+   * styles [{color, dash, width, alpha, aid, fill}], aid: it only helps the eye;   square: one unit is as long on both axes.
    * tell(panel, x, y): what to read at the cursor;   along: "t" or "omega", what the curves `names`, the last ones, are
    * drawn over, or along which they go in the order of `omega`.
    */
@@ -66,7 +66,11 @@ export class Panel {
           dash: style.dash?.map((d) => d * scale),
           alpha: style.alpha ?? 1,
           points: { show: false },
-          paths: (u) => ({ stroke: trace(u, seen(this.curves[i], style, this.hides, this.until), new Path2D(), true) }),
+          ...(style.fill && { fill: theme.ink(style.fill) }),
+          paths: (u) => {
+            const path = trace(u, seen(this.curves[i], style, this.hides, this.until), new Path2D(), true);
+            return { stroke: path, fill: style.fill ? path : null };
+          },
         })),
       ],
       hooks: {

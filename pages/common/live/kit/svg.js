@@ -62,12 +62,13 @@ export function svgPanel(panel, left, top, head, id) {
     .shades(u, false)
     .map(([x, y, width, height, fill]) => element("rect", { x, y, width, height, fill }));
   const curves = panel.curves.map((curve, i) => {
-    const { color, width: line = 2, dash } = spec.styles[i];
+    const { color, width: line = 2, dash, fill } = spec.styles[i];
     const pen = trace(u, curve, new SvgPen(), false);
     return element("path", {
       class: "curve",
       d: pen.parts.join(""),
       stroke: theme.ink(color),
+      fill: fill && theme.ink(fill),
       "stroke-width": line * scale,
       "stroke-dasharray": dash?.map((d) => d * scale).join(),
     });

@@ -1,4 +1,4 @@
-"""Tables shared between sessions: made once, whoever comes meanwhile; bounded; a maker that gives up harms nobody."""
+"""What sessions share: made once, whoever comes meanwhile; bounded; a maker that gives up harms nobody."""
 
 import random
 from concurrent.futures import ThreadPoolExecutor
@@ -6,8 +6,11 @@ from threading import Barrier, Event
 
 import pytest
 
-from pages.common.live.kit import shared_tables
-from pages.common.live.kit.shared_tables import SharedTables
+from pages.common.live.kit.held import TABLES
+from pages.common.session.design import Tuning
+from pages.common.shared import Shared, shared
+from pages.common.studies.single import study
+from simc_core import Plant
 
 from .tools import run_page
 
@@ -15,7 +18,7 @@ PATIENCE = 30  # s
 
 
 def test_thirty_who_come_together_wait_for_one():
-    tables, made, together = SharedTables(1000), [], Barrier(30)
+    tables, made, together = Shared(1000, len), [], Barrier(30)
     inside = Event()
 
     def make() -> bytes:
@@ -34,7 +37,7 @@ def test_thirty_who_come_together_wait_for_one():
 
 
 def test_two_tables_are_made_side_by_side():
-    tables, both = SharedTables(1000), Barrier(2)
+    tables, both = Shared(1000, len), Barrier(2)
 
     def make() -> bytes:
         both.wait(PATIENCE)  # passes only if the other is being made too
@@ -45,7 +48,7 @@ def test_two_tables_are_made_side_by_side():
 
 
 def test_one_who_gives_up_leaves_the_work_to_the_next():
-    tables, begun, waiting = SharedTables(1000), Event(), Event()
+    tables, begun, waiting = Shared(1000, len), Event(), Event()
 
     def give_up() -> bytes:
         begun.set()
@@ -64,7 +67,7 @@ def test_one_who_gives_up_leaves_the_work_to_the_next():
 
 
 def test_what_was_asked_for_longest_ago_goes_first():
-    tables, made = SharedTables(300), []
+    tables, made = Shared(300, len), []
 
     def get(name: str, size: int = 100) -> None:
         tables.get(name, lambda: made.append(name) or bytes(size))
@@ -79,7 +82,7 @@ def test_what_was_asked_for_longest_ago_goes_first():
 
 
 def test_many_threads_get_what_they_ask_for_within_the_bound():
-    tables = SharedTables(2_000)
+    tables = Shared(2_000, len)
 
     def visit(seed: int) -> None:
         rng = random.Random(seed)
@@ -89,22 +92,44 @@ def test_many_threads_get_what_they_ask_for_within_the_bound():
 
     with ThreadPoolExecutor(8) as pool:
         list(pool.map(visit, range(8)))
-    assert sum(map(len, tables._kept.values())) == tables._bytes <= 2_000
+    assert sum(map(len, tables._kept.values())) == tables._sum <= 2_000
     assert not tables._making
+
+
+def test_a_function_is_shared_by_arguments_and_bounded():
+    made = []
+
+    @shared(2)
+    def square(x: float, power: int = 2) -> float:
+        made.append(x)
+        return x**power
+
+    assert [square(3), square(3), square(3, power=3), square(3)] == [9, 9, 27, 9]
+    assert made == [3, 3]
+    square(4)
+    square(5)
+    square(3)
+    assert made == [3, 3, 4, 5, 3]
+
+
+def test_who_looks_at_one_design_looks_at_one_study():
+    plant = Plant(1, 1, (8,))
+    assert study(plant, Tuning(tau_c=2)) is study(Plant(1.0, 1.0, (8.0,)), Tuning(tau_c=2.0))
+    assert study(plant, Tuning(tau_c=2)) is not study(plant, Tuning(tau_c=3))
 
 
 @pytest.mark.parametrize(("place", "tables"), [("tuning", 1), ("cascade", 3)])
 def test_a_second_session_takes_the_tables_of_the_first(monkeypatch, place, tables):
     asked, made = [], []
 
-    class Watched(SharedTables):
+    class Watched(Shared):
         def get(self, name, make):
             asked.append(name)
             return super().get(name, lambda: made.append(name) or make())
 
-    monkeypatch.setattr(shared_tables.TABLES, "__class__", Watched)
-    shared_tables.TABLES._kept.clear()
-    shared_tables.TABLES._bytes = 0
+    monkeypatch.setattr(TABLES, "__class__", Watched)
+    TABLES._kept.clear()
+    TABLES._sum = 0
     for _ in range(2):
         run_page(place, "Live", plant="2 exp(-s)/(9s+1)", Ga="2 exp(-s)/(9s+1)")
     assert len(made) == tables
