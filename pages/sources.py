@@ -2,8 +2,9 @@
 
 import streamlit as st
 
+from pages.common.lessons.shelf import by_source
 from pages.common.parts.sources import address
-from pages.common.parts.symbols import symbols
+from pages.common.parts.symbols import spoken, symbols
 from pages.common.session import state
 from pages.common.shell import header
 from simc_core.published.sources import SOURCES
@@ -17,6 +18,7 @@ st.markdown(
     "project received them, those without a DOI from the common knowledge of the field: look them up before you cite "
     "them."
 )
+taught = by_source()
 asked = state.place().get("source", "")
 for key in sorted(SOURCES, key=lambda key: (key != asked, key)):
     with st.container(key=f"source_{key}", border=key == asked, gap="xsmall"):
@@ -24,4 +26,8 @@ for key in sorted(SOURCES, key=lambda key: (key != asked, key)):
         link = f"[https\\://{doi}](https://{doi})" if doi else ""
         st.markdown(f"**[\\[{key}\\]]({address(key)})** {reference}{link}  \n{symbols(USES[key])}")
         if key in MISPRINTS:
-            st.caption("Misprints: " + " ".join(map(symbols, MISPRINTS[key])))
+            st.markdown("Misprints: " + " ".join(map(symbols, MISPRINTS[key])))
+        if found := taught.get(key):
+            st.markdown(
+                "Lessons: " + ", ".join(f"[{spoken(each.title)}](lessons?lesson={each.id}&step=1)" for each in found)
+            )

@@ -45,7 +45,8 @@ def trend_figure(
     traces: list[Trace] = []
     if trend.r is not None:
         traces.append(palette.line(*held(trend.t, trend.r, end), "SP", palette.R, "dash", 1.4, **hover))
-    traces.append(palette.line(*thinned(trend.t, trend.y), "PV", palette.Y, width=1.4, **hover))
+    behind = 1.0 if fitted is None else 0.5  # the model is to be seen in the noise
+    traces.append(palette.line(*thinned(trend.t, trend.y), "PV", palette.Y, width=1.4, opacity=behind, **hover))
     traces.append(
         palette.line(*held(trend.instants_of_u, trend.u, end), "OP", palette.U, width=1.6, yaxis="y2", **hover)
     )

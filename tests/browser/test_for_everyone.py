@@ -46,7 +46,7 @@ LOOKS = """async here => {
     here.focus({focusVisible: true});
     return [seen, unfocused];
 }"""
-WITHOUT_FIGURES = ("", "take_home", "many", "accuracy", "sources")
+WITHOUT_FIGURES = ("", "take_home", "many", "lessons", "accuracy", "sources")
 PLANT = "plant=exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"
 
 

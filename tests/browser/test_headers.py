@@ -19,6 +19,7 @@ PAGES = (
     "cascade",
     "take_home",
     "many",
+    "lessons",
     "lessons?lesson=V1&step=3",
     "accuracy",
     "sources",

@@ -69,3 +69,9 @@ def test_handle_and_curve_stand_on_one_screen(width, height, server, open_page):
         assert curve["y"] + curve["height"] <= height
     assert fits(page)
     picture(page, "lessons-step")
+
+
+def test_a_controller_of_two_settings_has_two_knobs(server, open_page):
+    page = open_page(f"{server}/lessons?lesson=I4&step=1")
+    assert panels(page) == ["y", "sensitivity"]
+    expect(page.locator(".live .track:visible")).to_have_count(2)

@@ -2,8 +2,6 @@
 
 import math
 import re
-import subprocess
-import sys
 
 import pytest
 
@@ -205,8 +203,3 @@ def test_quantities_have_a_meaning_each_and_the_documentation_lists_them():
         assert f"| `{name}` | {quantity.meaning} |" in listed
     for subject, title in SUBJECTS.items():
         assert f"| `{subject}` | {title} |" in listed
-
-
-def test_lessons_need_no_web_framework():
-    code = "import sys, pages.common.lessons.shelf, pages.common.lessons.claims; sys.exit('streamlit' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0

@@ -5,11 +5,12 @@ import pytest
 from pages.common.lessons import progress
 from pages.common.lessons.in_use import TAG
 from pages.common.lessons.lesson import LONGEST
-from pages.common.lessons.shelf import DATA, lessons
+from pages.common.lessons.shelf import DATA, after, by_subject, lessons
 from pages.common.parts.sources import cited, linked
+from pages.common.session.loops import MOST_LOOPS
 from simc_core.published.sources import SOURCES
 
-from .tools import address, run_page, texts
+from .tools import address, copyables, run_page, texts
 
 V1 = lessons()["V1"]
 SHOWN = ("V1", "S8", "V2", "N1", "N2", "N5", "R1", "P01a")  # each kind of figure at least once
@@ -64,9 +65,19 @@ def test_from_play_to_the_numbers_with_a_prediction():
     assert [len(table.value) for table in app.table] == [4, 1]
     assert app.table[0].value["printed"].tolist() == ["0.57", "8", "1.38", "2.73"]
     assert app.table[0].value["here"].tolist() == ["0.5714", "8", "1.375", "2.727"]
+    press(app, "lesson_after")
+    assert "step 1 of" in texts(app)
+    assert address(app)["lesson"] != "V1"
     press(app, "lesson_close")
     assert "lesson" not in address(app)
     assert "done" in texts(app)
+
+
+def test_one_lesson_leads_to_the_next_until_all_were_seen():
+    seen = [next(iter(by_subject().values()))[0]]
+    while (following := after(seen[-1])) is not None:
+        seen.append(following)
+    assert len(seen) == len({each.id for each in seen}) == len(lessons())
 
 
 def test_ones_own_loop_stays_as_it_is_and_all_lessons_share_one_loop():
@@ -80,12 +91,20 @@ def test_ones_own_loop_stays_as_it_is_and_all_lessons_share_one_loop():
     assert loops(app).entries[0].design == mine
 
 
+def test_an_address_is_short_until_something_is_moved():
+    app = press(run_page("lessons"), "open_V1")
+    assert address(app) == {"lesson": "V1", "step": "1"}
+    (link,) = copyables(app)
+    assert link.endswith("?lesson=V1&step=1")
+    assert address(run_page("lessons", lesson="V1", step="3")) == {"lesson": "V1", "step": "3"}
+
+
 def test_what_was_moved_is_put_back_and_a_link_with_a_design_keeps_it():
     app = run_page("lessons", lesson="V1", step="3", tag="Lesson V1", plant=V1.design["plant"], tau_c="9")
     assert loops(app).design.tuning.tau_c == 9
     press(app, "lesson_put_back")
     assert loops(app).design.tuning.tau_c is None
-    assert address(app)["step"] == "3"
+    assert address(app) == {"lesson": "V1", "step": "3"}
 
 
 @pytest.mark.parametrize(("step", "found"), [("0", 1), ("99", 7), ("-1", 1), ("x", 1), ("٣", 3), ("9" * 30, 1)])
@@ -110,6 +129,27 @@ def test_a_lesson_of_a_file_opens_and_its_text_is_no_markup():
     assert address(app)["lesson"] == "file"
     heading = next(item.value for item in app.markdown if "<b>" in item.value)
     assert heading == "# `# <b>x</b> $y$ [a](b)`"
+
+
+def test_a_claim_of_a_file_that_does_not_hold_is_marked():
+    wrong = (DATA / "V1.toml").read_bytes().replace(b"IAE_load(PI) = 14.6", b"IAE_load(PI) = 41.6")
+    app = upload(run_page("lessons"), "mine.toml", wrong)
+    for _ in range(5):
+        press(app, "lesson_next")
+    assert texts(app).count("Does not hold here") == 1
+    assert "**Does not hold here:** `IAE_load(PI) = 41.6` is 14.59" in texts(app)
+
+
+def test_where_the_list_of_loops_is_full_a_lesson_says_so_and_shows_nothing_else():
+    app = run_page("lessons", plant="7/(3s+1)")
+    full = loops(app)
+    while len(full.entries) < MOST_LOOPS:
+        full = full.added(full.design)
+    app.session_state["loops"] = full
+    app.query_params.update({"lesson": "V1", "step": "3"})
+    app.run()
+    assert "delete one first" in app.error[0].value
+    assert V1.moves[0].text not in texts(app)
 
 
 @pytest.mark.parametrize(
@@ -142,6 +182,7 @@ def test_sources_tell_each_publication_and_the_one_that_was_asked_for_first():
     assert len(found) == len(SOURCES)
     assert found[0].startswith(r"**[\[V06\]]")
     assert "Equation numbers 19 and 20" in texts(app)
+    assert "[The wrong way first](lessons?lesson=V2&step=1)" in texts(app)
 
 
 def test_a_key_in_brackets_leads_to_its_source_with_its_full_name_on_hover():

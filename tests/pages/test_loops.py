@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from pages.common.session import state
+from pages.common.session import project, state
 from pages.common.session.design import Design, Tuning
 from pages.common.session.loops import MOST_LOOPS, Entry, Loops
 from pages.common.session.sheet import Sheet
@@ -55,6 +55,17 @@ def test_the_page_begins_another_loop_with_nothing_of_the_last_one():
     time.sleep(ANSWERED)  # the page runs alone here: nobody tells that the run which chose the new loop has ended
     app.selectbox(key="loop").set_value(0).run()
     assert address(app)["tau_c"] == "180"
+
+
+def test_another_loop_may_be_chosen_after_a_project_was_opened():
+    """The file is still in its field: it is not opened again."""
+    app = run_page("accuracy")
+    file = project.dump(Loops((Entry(HEATER),)).added(LEVEL).switched(0)).encode()
+    app.file_uploader(key="project_file").set_value(("loops.json", file, "application/json")).run()
+    assert app.session_state["loops"].design == HEATER
+    time.sleep(ANSWERED)
+    app.selectbox(key="loop").set_value(1).run()
+    assert app.session_state["loops"].design == LEVEL
 
 
 def test_what_a_run_has_just_put_into_a_field_is_not_undone_by_a_report_from_before(monkeypatch):

@@ -3,10 +3,11 @@
 import streamlit as st
 
 from pages.common.lessons import progress
-from pages.common.lessons.claims import value_of
-from pages.common.lessons.lesson import MOST_NUMBERS, Lesson, Printed
+from pages.common.lessons.claims import checked, value_of
+from pages.common.lessons.lesson import MOST_NUMBERS, Claim, Lesson, Printed
 from pages.common.lessons.opened import Cases
 from pages.common.lessons.texts import shown
+from pages.common.parts.foreign_text import exact, told
 from simc_core.errors import SimcError
 from simc_core.notation import number
 
@@ -21,7 +22,23 @@ def answer(lesson: Lesson, letters: str) -> None:
         st.caption(f"Predicted: {letters[chosen - 1]}. {shown(lesson, lesson.choices[chosen - 1])}")
     st.markdown(shown(lesson, lesson.answer))
     if lesson.claims:
-        st.markdown("\n".join(f"- {shown(lesson, claim.says)}" for claim in lesson.claims))
+        cases = Cases(lesson)
+        st.markdown(
+            "\n".join(f"- {shown(lesson, claim.says)}{_doubt(lesson, claim, cases)}" for claim in lesson.claims)
+        )
+
+
+def _doubt(lesson: Lesson, claim: Claim, cases: Cases) -> str:
+    """What does not hold of a claim of a file; those of the program are tested."""
+    if lesson.own:
+        return ""
+    found = {check: checked(check, cases) for check in claim.checks}
+    wrong = [
+        f"{exact(check)} {told(outcome.fault) if outcome.fault else f'is {number(outcome.left)}'}"
+        for check, outcome in found.items()
+        if not outcome.met
+    ]
+    return f" **Does not hold here:** {'; '.join(wrong)}" if wrong else ""
 
 
 def numbers(lesson: Lesson) -> None:

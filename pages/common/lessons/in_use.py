@@ -28,8 +28,8 @@ def step_now(lesson: Lesson) -> int:
 
 def open_at(lesson: Lesson, step: int) -> None:
     """Go to a step of a lesson, with what stands there at first."""
-    state.go_to_place(lesson=lesson.id if lesson.own else FILE, step=str(step))
     put_back(lesson, step)
+    state.go_to_place(lesson=lesson.id if lesson.own else FILE, step=str(step))
 
 
 def close() -> None:
@@ -40,6 +40,7 @@ def close() -> None:
 def put_back(lesson: Lesson, step: int) -> None:
     """What stands there at first, whatever was moved. Raises InvalidParameter where the list of loops is full."""
     design = at_first(lesson, lesson.move_at(step))
+    state.place_stands_for(design)
     loops = state.loops()
     mine = next((i for i, name in enumerate(loops.names) if name.startswith(TAG)), None)
     if mine is not None:
@@ -63,6 +64,7 @@ def arrive(lesson: Lesson, step: int) -> None:
     A link that holds a design too has been moved, and is taken as it is.
     """
     at = state.lasting("lesson_at", lambda: None)
+    state.place_stands_for(at_first(lesson, lesson.move_at(step)))
     fresh = at is None and state.design_now().sheet.tag == f"{TAG}{lesson.id}"
     here = at is not None and at[:2] == (lesson.id, step) and (at[2] == _loop() or at[3] == state.design_now())
     if fresh or here:

@@ -31,6 +31,7 @@ VIEWS = ("responses", "tradeoff")
 BASE = "base"  # the case of the design alone
 ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9_]{0,11}")
 CASE = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,15}")
+LABEL = re.compile(r"[\w =.,]{1,16}")  # of a case in legends, which read more than that as markup
 MOST_NUMBERS = 4  # in sight at once
 MOST = {"choices": 5, "cases": 8, "moves": 6, "claims": 12, "printed": 12, "behind": 3, "checks": 8, "design": 40}
 LONGEST = {"title": 60, "where": 80, "text": 700, "name": 60, "check": 200, "value": 20}
@@ -106,7 +107,8 @@ class Printed:
 class Lesson:
     """id, title, subject.   source: key in square brackets elsewhere, "" for none; where: in it.
 
-    question, choices, and the right one, counted from 1.   design: fields of a link.   cases: further fields, by name.
+    question, choices, and the right one, counted from 1.   design: fields of a link.
+    cases: further fields by name of the case, and its `name` in legends.
     play: the free beginning.   moves: after the prediction.   numbers: cells that are shown at the end.
     answer: in one or two sentences.   misprint: of the source.   own: of the program, not opened from a file.
     """
@@ -154,6 +156,11 @@ class Lesson:
         for case in self.cases:
             if not CASE.fullmatch(case) or case == BASE:
                 raise InvalidParameter(f"a case is named by 1 to 16 letters and digits, not {BASE}, found {case[:20]}")
+            label = self.label(case)
+            if not LABEL.fullmatch(label):
+                raise InvalidParameter(
+                    f"cases.{case}: name must be 1 to 16 letters, digits and = . , found {label[:20]}"
+                )
         if len(self.numbers) > MOST_NUMBERS:
             raise InvalidParameter(f"numbers must be at most {MOST_NUMBERS}, found {len(self.numbers)}")
         for name in self.numbers:
@@ -161,6 +168,10 @@ class Lesson:
         for move in (self.play, *self.moves):
             for case in (move.case, *move.behind):
                 _one_of("case", case, (BASE, *self.cases))
+
+    def label(self, case: str) -> str:
+        """Of a case in legends: its `name`, or what it is called in checks."""
+        return self.cases.get(case, {}).get("name", case).replace("_", " ")
 
     @property
     def steps(self) -> int:

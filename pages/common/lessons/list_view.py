@@ -3,10 +3,10 @@
 import streamlit as st
 
 from pages.common.lessons import in_use, progress
-from pages.common.lessons.lesson import SUBJECTS, Lesson
+from pages.common.lessons.lesson import Lesson
 from pages.common.lessons.opened import check_designs
 from pages.common.lessons.read import read_lesson
-from pages.common.lessons.shelf import DATA, by_paper, by_subject
+from pages.common.lessons.shelf import DATA, NO_PAPER, by_paper, by_subject
 from pages.common.lessons.texts import named, shown
 from pages.common.parts.foreign_text import exact, told
 from pages.common.parts.refusals import explain_refusal
@@ -50,8 +50,8 @@ def _cards(found: list[Lesson], name: str) -> None:
     with st.container(key=f"cards_{name}"):
         for lesson in found:
             with st.container(border=True, height="stretch", vertical_alignment="distribute", gap="xsmall"):
-                source = f"{cited(lesson.source)} {shown(lesson, lesson.where)}" if lesson.source else ""
-                st.caption(" · ".join(filter(None, [source or SUBJECTS[lesson.subject], progress.word(lesson)])))
+                source = f"{cited(lesson.source)} {shown(lesson, lesson.where)}" if lesson.source else NO_PAPER
+                st.markdown(" · ".join(filter(None, [source, progress.word(lesson)])))
                 with explain_refusal():
                     if st.button(named(lesson, lesson.title), key=f"open_{lesson.id}", width="stretch"):
                         in_use.open_at(lesson, 1)
@@ -76,8 +76,8 @@ def _from_file() -> None:
         except SimcError as error:
             st.error(f"{exact(upload.name)} was not opened: {told(str(error))}")
             return
-        if state.memory("lesson_opened", lambda: None) != upload.file_id:
+        if state.lasting("lesson_opened", lambda: None) != upload.file_id:
             state.make_last("lesson_file", lesson)
             in_use.open_at(lesson, 1)
-            state.remember("lesson_opened", upload.file_id)
+            state.make_last("lesson_opened", upload.file_id)
             st.rerun()

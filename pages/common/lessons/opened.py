@@ -40,7 +40,7 @@ KEPT = 32  # designs, of all sessions
 def fields_of(lesson: Lesson, case: str) -> dict[str, str]:
     """The fields of a link that opens this case: those of the design, and further ones; an empty text takes one out."""
     both = {**lesson.design, **(lesson.cases[case] if case != BASE else {})}
-    return {name: text for name, text in both.items() if text}
+    return {name: text for name, text in both.items() if text and name != "name"}
 
 
 def design_of(lesson: Lesson, case: str) -> Design:

@@ -23,11 +23,20 @@ def by_subject() -> dict[str, list[Lesson]]:
     return {title: [each for each in lessons().values() if each.subject == key] for key, title in SUBJECTS.items()}
 
 
+def after(lesson: Lesson) -> Lesson | None:
+    """The next one by subject; None after the last one, and after one that is not of the program."""
+    order = [each for group in by_subject().values() for each in group]
+    at = order.index(lesson) + 1 if lesson in order else len(order)
+    return order[at] if at < len(order) else None
+
+
+def by_source() -> dict[str, list[Lesson]]:
+    """Key of each paper, those with most lessons first, and its lessons; last "" for those of none."""
+    keys = {each.source for each in lessons().values()}
+    found = {key: [each for each in lessons().values() if each.source == key] for key in keys}
+    return dict(sorted(found.items(), key=lambda item: (item[0] == "", -len(item[1]), item[0])))
+
+
 def by_paper() -> dict[str, list[Lesson]]:
-    """Each paper by its key, those with most lessons first; last those of none."""
-    keys = sorted({each.source for each in lessons().values()}, key=lambda key: (key == "", -len(_of(key)), key))
-    return {f"[{key}] {SOURCES[key]}" if key else NO_PAPER: _of(key) for key in keys}
-
-
-def _of(key: str) -> list[Lesson]:
-    return [each for each in lessons().values() if each.source == key]
+    """The same by the full name of the paper."""
+    return {f"[{key}] {SOURCES[key]}" if key else NO_PAPER: found for key, found in by_source().items()}

@@ -23,12 +23,7 @@ def stage(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) 
 
 
 def _behind(lesson: Lesson, move: Move) -> list[tuple[str, Study]]:
-    return [(named(case), present_study(design_of(lesson, case))) for case in move.behind]
-
-
-def named(case: str) -> str:
-    """A case in a legend."""
-    return case.replace("_", " ")
+    return [(lesson.label(case), present_study(design_of(lesson, case))) for case in move.behind]
 
 
 def _tau_c(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
@@ -89,8 +84,8 @@ def _relay(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...])
 
 
 def _rules(lesson: Lesson, move: Move, design: Design, figures: tuple[str, ...]) -> None:
-    first = "now" if move.case == BASE else named(move.case)
-    designs = [(first, design), *((named(case), design_of(lesson, case)) for case in move.behind)]
+    first = "now" if move.case == BASE else lesson.label(move.case)
+    designs = [(first, design), *((lesson.label(case), design_of(lesson, case)) for case in move.behind)]
     studies = [study_of_settings(each.plant, opened(each).row.controller) for _, each in designs]
     courses = list(zip([name for name, _ in designs], time_responses(studies, design.excitation), strict=True))
     show(output_figure(courses, HEIGHT), "rules_y", "Output y after a set-point step and a load step")

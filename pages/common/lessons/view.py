@@ -5,6 +5,7 @@ import streamlit as st
 from pages.common.lessons import in_use, progress
 from pages.common.lessons.answer import answer, numbers
 from pages.common.lessons.lesson import MOVING, Lesson
+from pages.common.lessons.shelf import after
 from pages.common.lessons.stage import stage
 from pages.common.lessons.texts import named, shown
 from pages.common.parts.formula import fitted
@@ -20,10 +21,13 @@ QUESTION = 2
 def lesson_view(lesson: Lesson) -> None:
     """The step that the address names."""
     step = in_use.step_now(lesson)
+    _title(lesson, step)
     with explain_refusal():
         in_use.arrive(lesson, step)
-    design = state.design_now()
-    _title(lesson, step)
+        _step(lesson, step, state.design_now())
+
+
+def _step(lesson: Lesson, step: int, design: Design) -> None:
     if step == QUESTION:
         with st.container(key="lesson_question"):
             about(lesson, design)
@@ -109,6 +113,14 @@ def _way(lesson: Lesson, step: int) -> None:
                 shortcut="n",
                 on_click=in_use.open_at,
                 args=(lesson, step + 1),
+            )
+        elif following := after(lesson):
+            st.button(
+                f"Next lesson: {named(following, following.title)}",
+                key="lesson_after",
+                type="primary",
+                on_click=in_use.open_at,
+                args=(following, 1),
             )
         if step != QUESTION and lesson.move_at(step).shows in MOVING:
             st.button(

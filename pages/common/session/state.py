@@ -38,11 +38,15 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
 
     beside: parameters that this page has beside those of the design, see `place`; on other pages they are unknown.
     """
-    given = st.query_params.to_dict()
-    if asked := given.pop("view", ""):
-        st.session_state["asked_view"] = asked
-    if not beside:
-        st.session_state["place"] = {}
+    given = links.without_trackers(st.query_params.to_dict())
+    view, panel, lecture = (given.pop(name, "") for name in ("view", "panel", "lecture"))
+    if view:
+        st.session_state["asked_view"] = view
+    if lecture:
+        st.session_state["asked_lecture"] = {"view": view, "panel": panel, "on": "yes"}
+    if beside != st.session_state.get("beside", ()):  # another page
+        st.session_state["beside"] = beside
+        st.session_state["place"], st.session_state["stands_for"] = {}, None
     if given and given != st.session_state.get("address") and not _late(given):
         if beside:
             st.session_state["place"] = {name: given.pop(name) for name in beside if name in given}
@@ -65,6 +69,11 @@ def go_to_place(**parameters: str) -> None:
     """Another place of the same page, which the address shows; none for its beginning."""
     st.session_state["place"] = parameters
     _show_in_address()
+
+
+def place_stands_for(design: Design) -> None:
+    """The design that the place opens by itself, so that an address need not hold it."""
+    st.session_state["stands_for"] = design
 
 
 def design_now() -> Design:
@@ -296,6 +305,31 @@ def asked_view() -> str:
     return st.session_state.pop("asked_view", "")
 
 
+def asked_lecture(leave: Callable[[str], bool] = lambda view: False) -> dict[str, str]:
+    """View and panel of the lecture that a link asked for, told once; empty for none.
+
+    leave: whether a lecture of this view is for somebody else, who asks later.
+    """
+    if leave(st.session_state.get("asked_lecture", {}).get("view", "")):
+        return {}
+    return st.session_state.pop("asked_lecture", {})
+
+
+def lecturing() -> dict[str, str]:
+    """The lecture view of a page without an instrument: which page, view and panel; empty where there is none."""
+    return lasting("lecture_on", dict)
+
+
+def lecture_is(on: dict[str, str]) -> None:
+    """Begin or, with nothing, end it."""
+    make_last("lecture_on", on)
+
+
+def ask_lecture() -> None:
+    """As a link that says lecture=1."""
+    st.session_state["asked_lecture"] = {"view": "", "panel": "", "on": "yes"}
+
+
 def ignored() -> list[Ignored]:
     """What the last address held that could not be used."""
     return st.session_state.get("ignored", [])
@@ -306,10 +340,12 @@ def dismiss_ignored() -> None:
     st.session_state["ignored"] = []
 
 
-def address() -> str:
-    """The address of this page with the design in it."""
+def address(**more: str) -> str:
+    """The address of this page with the design in it.   more: what else it names, such as a view."""
     base = (st.context.url or "").split("?")[0]
-    return f"{base}?{'&'.join([links.query(design_now()), *([urlencode(place())] if place() else [])])}"
+    own = [] if _is_told_by_place() else [links.query(design_now())]
+    beside = urlencode(place() | more)
+    return f"{base}?{'&'.join([*own, *([beside] if beside else [])])}"
 
 
 def parameters() -> dict[str, str]:
@@ -333,8 +369,12 @@ def _late(given: dict[str, str]) -> bool:
     return given == former and monotonic() < until
 
 
+def _is_told_by_place() -> bool:
+    return bool(place()) and st.session_state.get("stands_for") == design_now()
+
+
 def _show_in_address() -> None:
-    wanted = links.encode(design_now()) | place()
+    wanted = ({} if _is_told_by_place() else links.encode(design_now())) | place()
     if st.query_params.to_dict() != wanted:
         st.query_params.from_dict(wanted)
     shown = st.session_state.get("address")
