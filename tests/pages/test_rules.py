@@ -186,6 +186,7 @@ def test_the_point_of_the_plane_stands_on_my_settings():
     mine = IdealPid(5.0, 3.0, 0.0, 0.0, 0.7)
     there = ground_of(Plant(1, 1, (8,)), mine)
     assert there.controller == mine
+    assert there.plane["name"] == "my settings"
     assert there.Kc[0] < 5 < there.Kc[1]
     assert there.tau_I[0] < 3 < there.tau_I[1]
 
@@ -193,9 +194,18 @@ def test_the_point_of_the_plane_stands_on_my_settings():
 def test_where_I_have_no_PI_settings_the_point_begins_at_the_rule_that_was_picked():
     there = ground_of(Plant(1, 1, (8, 2)), SeriesPid(2, 8, 2, 0.1))
     assert (there.controller.Kc, there.controller.tau_D) == (SIMC_PI_OF_8_2, 0.0)
+    assert there.plane["name"] == "settings to try"
 
 
 SIMC_PI_OF_8_2 = 9 / (2 * 2)  # half rule: tau1 9, theta 2
+
+
+def test_the_limit_of_an_unstable_plant_has_two_sides():
+    """2 e^{-s}/(10 s - 1): below Kc = 1/2 no integral time will do, nor above the ultimate gain."""
+    limit = ground_of(parse_plant("2 exp(-s)/(10s-1)")).plane["limit"]
+    lowest = int(np.argmin(limit["y"]))
+    assert min(limit["y"][0], limit["y"][-1]) > 5 * limit["y"][lowest]
+    assert limit["x"][0] == pytest.approx(0.5, rel=0.15)
 
 
 @pytest.mark.parametrize("plant", PLANTS.values(), ids=PLANTS.keys())

@@ -33,7 +33,8 @@ def ground(question: Question, rows: Sequence[Row], chosen: Row | None, present:
     Kc, tau_I = (
         _limits(ends, size) for ends, size in ((plane.Kc[[0, -1]], abs(form.Kc)), (plane.tau_I[[0, -1]], form.tau_I))
     )
-    drawn = _drawn(question, rows, chosen, plane, Kc, tau_I) | {"name": "my settings" if mine else "tried settings"}
+    known = mine and present is not None and curves.plane_pair(present.controller) is not None
+    drawn = _drawn(question, rows, chosen, plane, Kc, tau_I) | {"name": "my settings" if known else "settings to try"}
     return Ground(question.plant, form, mine, Kc, tau_I, drawn)
 
 
@@ -57,14 +58,15 @@ def _drawn(
 ) -> dict[str, object]:
     """See panel.js."""
     limit = np.clip(plane.limit, *tau_I)
-    end = int(np.isfinite(plane.limit).sum()) + 1  # up to where no integral time is long enough
+    finite = np.pad(np.isfinite(plane.limit), 1)
+    seen = finite[:-2] | finite[1:-1] | finite[2:]  # up to where no integral time is long enough
     around = np.append(plane.Kc, plane.Kc[[-1, 0]]), np.append(limit, [tau_I[0]] * 2)
     best, path = curves.best_settings(question), curves.simc_settings(question)
     return {
         "x": list(Kc),
         "y": list(tau_I),
         "region": _line(*around),
-        "limit": _line(plane.Kc[:end], limit[:end]),
+        "limit": _line(plane.Kc[seen], limit[seen]),
         "contours": _contours(plane),
         "best": _line(best.x, best.y),
         "path": _line(path.x, path.y),

@@ -146,8 +146,12 @@ export class PlanePanel extends Panel {
     }[event.key];
     if (!to) return;
     event.preventDefault();
+    this.hand.held(true); // an answer to the last release must not take the point back
     this.hand.moved(...to);
     clearTimeout(this.timer); // a key held down is one release
-    this.timer = setTimeout(() => this.hand.released(), PATIENCE);
+    this.timer = setTimeout(() => {
+      this.hand.held(false);
+      this.hand.released();
+    }, PATIENCE);
   }
 }
