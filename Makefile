@@ -47,10 +47,13 @@ bench: $(VENV)/dev.stamp
 	$(BIN)/python -m benchmarks.optimum
 	$(BIN)/python -m benchmarks.identification
 	$(BIN)/python -m benchmarks.many
+	$(BIN)/python -m benchmarks.fuzz
+	$(BIN)/python -m benchmarks.bounds
 
 bench-ui: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m benchmarks.ui
 	$(BIN)/python -m benchmarks.switches
+	$(BIN)/python -m benchmarks.pages
 
 screenshots: $(VENV)/dev.stamp chromium
 	$(BIN)/python -m tests.browser.readme_picture

@@ -2,7 +2,7 @@
 
 Each in a process of its own, after the same for a usual plant: MB of memory and seconds of the processor beyond that.
 The named plants are those that once took gigabytes; the random ones have times over six decades, light damping and
-unstable poles.
+unstable poles. Bounded: 60 processes, two at a time, some three minutes on two quiet cores.
 """
 
 import math
@@ -12,6 +12,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from streamlit.testing.v1 import AppTest
@@ -28,7 +29,9 @@ NAMED = (
     "exp(-s)/(1e4s^2+1e-4s+1)",
     "+".join(f"1/(s+{i})" for i in range(1, 38)),
 )
-RANDOM, SEED = 20, 11
+RANDOM, SEED = 8, 11
+AT_A_TIME = 2
+PATIENCE = 300  # s, for one of the processes
 TUNINGS = 300
 
 
@@ -56,6 +59,11 @@ def tuned(text: str) -> None:
     _page("tuning", plant=text, order="2")
 
 
+def changed(text: str) -> None:
+    """Its view of 33 changed plants."""
+    _page("tuning", "Model error", plant=text, order="2")
+
+
 def cascaded(text: str) -> None:
     """The cascade page, with a usual block inside."""
     _page("cascade", Ga=text, Gb=INNER)
@@ -65,6 +73,7 @@ KINDS: dict[str, Callable[[str], None]] = {
     "sweep": swept,
     "measures": measured,
     "tuning page": tuned,
+    "model error": changed,
     "cascade page": cascaded,
 }
 
@@ -102,9 +111,11 @@ def beyond_usual(kind: str, text: str) -> tuple[float, float, str]:
 
 def apart(kind: str, text: str) -> tuple[float, float, str]:
     """The same in a process of its own."""
-    found = subprocess.run(
-        [sys.executable, "-m", "benchmarks.bounds", kind, text], cwd=ROOT, capture_output=True, text=True, check=False
-    )
+    command = [sys.executable, "-m", "benchmarks.bounds", kind, text]
+    try:
+        found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=PATIENCE)
+    except subprocess.TimeoutExpired:
+        return math.nan, math.nan, f"not within {PATIENCE} s"
     try:
         megabytes, s, end = found.stdout.strip().splitlines()[-1].split(" ", 2)
         return float(megabytes), float(s), end
@@ -119,19 +130,22 @@ def main() -> None:
     print(f"| plant | {' | '.join(f'{kind}, MB | s' for kind in KINDS)} |")
     print(f"|---|{'---|---|' * len(KINDS)}")
     beyond = []
-    for text, name in texts.items():
-        row = []
-        for kind in KINDS:
-            megabytes, s, end = apart(kind, text)
-            row.append(f"{max(megabytes, 0):.0f} | {max(s, 0):.2f}")
-            if not (megabytes <= MOST_MB and s <= MOST_S):
-                beyond.append(f"{kind} {text}: {megabytes:.0f} MB, {s:.2f} s, {end}")
-        print(f"| {name} | {' | '.join(row)} |", flush=True)
+    with ThreadPoolExecutor(AT_A_TIME) as pool:
+        made = {(text, kind): pool.submit(apart, kind, text) for text in texts for kind in KINDS}
+        for text, name in texts.items():
+            row = []
+            for kind in KINDS:
+                megabytes, s, end = made[text, kind].result()
+                row.append(f"{max(megabytes, 0):.0f} | {max(s, 0):.2f}")
+                if not (megabytes <= MOST_MB and s <= MOST_S):
+                    beyond.append(f"{kind} {text}: {megabytes:.0f} MB, {s:.2f} s, {end}")
+            print(f"| {name} | {' | '.join(row)} |", flush=True)
     print("\n".join(beyond) or f"all within {MOST_MB:.0f} MB and {MOST_S:g} s of a usual plant")
 
 
-def _page(name: str, **parameters: str) -> None:
+def _page(name: str, view: str = "Live", **parameters: str) -> None:
     app = AppTest.from_file(str(ROOT / "pages" / f"{name}.py"), default_timeout=120)
+    app.session_state["views"] = view
     app.query_params.update(parameters)
     app.run()
     if app.exception:

@@ -116,6 +116,8 @@ def _drawn(one: Uncertainty, members: int) -> Cloud:
     values = centre + np.concatenate([np.zeros((1, len(spread))), normal])
     lags = slice(1, 1 + len(structure.lags))
     values[:, lags] = np.clip(values[:, lags], centre[lags] - 5, centre[lags] + 5)
+    if structure.lags == ("tau1", "tau2"):
+        values[:, lags] = _with_their_sum(values[:, lags], centre[lags])
     values[:, 0] = np.maximum(values[:, 0], 0.0)
     if "zeta" in structure.lags:
         values[:, 2] = np.maximum(values[:, 2], 0.0)
@@ -124,3 +126,17 @@ def _drawn(one: Uncertainty, members: int) -> Cloud:
     found = natural_values(structure.lags, structure.gains, values[kept])
     names = tuple({"1/a": "a", "kT": "T"}.get(name, name) for name in ("theta", *structure.lags, *structure.gains))
     return Cloud(structure.key, names, found)
+
+
+def _with_their_sum(drawn: Array, centre: Array) -> Array:
+    """ln lags, rows of two, drawn about a centre: as they are to first order, but with the sum that this leaves.
+
+    Two lags that part are told from one another by their sum, not by their product: to draw them one by one would make
+    the sum of two that are not told apart as large as one likes.
+    """
+    half, middle = (centre[0] - centre[1]) / 2, (centre[0] + centre[1]) / 2
+    parted = (drawn[:, 0] - drawn[:, 1]) / 2
+    total = (drawn[:, 0] + drawn[:, 1]) / 2 - middle + np.tanh(half) * (parted - half)
+    total += middle + np.log(2 * np.cosh(half))
+    larger = total - np.log(2 * np.cosh(parted))
+    return np.stack([larger + parted, larger - parted], axis=1)

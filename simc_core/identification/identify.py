@@ -1,6 +1,7 @@
 """A model from a trend: one structure, or all of them ranked."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.stats import t as student
@@ -12,16 +13,17 @@ from simc_core.identification.estimator.records import as_record
 from simc_core.identification.estimator.structures import STRUCTURES
 from simc_core.identification.identified import Identified
 from simc_core.identification.judgement.estimate import Estimate, estimate
-from simc_core.identification.judgement.gain_per_move import gains_per_move
+from simc_core.identification.judgement.gain_per_move import GainOfMove, differ, gains_per_move
 from simc_core.identification.judgement.noise import resolution
 from simc_core.identification.judgement.refusals import refuse_before, refuse_weak
-from simc_core.identification.judgement.verdicts import along, verdicts
+from simc_core.identification.judgement.verdicts import along, disagree, verdicts
 from simc_core.identification.models import as_model
 from simc_core.identification.moves import find_moves
 from simc_core.identification.parameters import natural
 from simc_core.identification.trend import MOST_SAMPLES, Trend, check_trend
 
 MOST_TRENDS = 20
+PLAINER = 1.5  # times the noise that a plainer model may leave
 ON_SETPOINT = 0.03  # share of the moves
 BELIEVED = 1e-4  # of the response: deviations below are not believed
 
@@ -82,6 +84,8 @@ def identify(
     for one in trends:
         refuse_before(one)
     found = _estimate(trends, shape, drift, between_samples)
+    if drift is None and len(trends) == 1:
+        found = _plainer(trends, found, between_samples)
     return _told(trends, found, sign)
 
 
@@ -115,7 +119,9 @@ def resolution_of(trends: list[Trend]) -> float:
     return max(resolution(one.y) for one in trends)
 
 
-def _estimate(trends: list[Trend], structure: str, drift: bool | None, between_samples: bool) -> Estimate:
+def _estimate(
+    trends: list[Trend], structure: str, drift: bool | None, between_samples: bool, start: bool = True
+) -> Estimate:
     shape = STRUCTURES[structure]
     records = [as_record(one, between_samples) for one in trends]
     fewest = 2 * (4 + len(shape.lags) + len(shape.gains))
@@ -124,7 +130,39 @@ def _estimate(trends: list[Trend], structure: str, drift: bool | None, between_s
         raise NotIdentifiable(f"{size} samples are too few for this structure: it needs at least {fewest}")
     step = resolution_of(trends)
     floor = max(BELIEVED * response_of(trends), step / np.sqrt(12))
-    return estimate(shape, records, floor, step, drift)
+    return estimate(shape, records, floor, step, drift, start)
+
+
+def _plainer(trends: list[Trend], found: Estimate, between_samples: bool) -> Estimate:
+    """The estimate, or one without drift and unsettled start where these make the gains of the moves disagree.
+
+    A drift that is one leaves the moves their common gain. One that only makes up for a poor structure does not, and
+    what it takes from the gain is doubt about it.
+    """
+    structure = found.fit.problem.structure
+    if structure.integrating or not (found.drift or found.start) or not differ(_gains(trends, found)):
+        return found
+    for drift, start in ((False, False), (False, True), (True, False)):
+        if drift > found.drift or start > found.start or (drift, start) == (found.drift, found.start):
+            continue
+        other = _estimate(trends, structure.key, drift, between_samples, start)
+        if other.start > start or other.noise.sigma > PLAINER * found.noise.sigma:
+            continue
+        gains = _gains(trends, other)
+        if gains and not differ(gains):
+            off = other.values - found.values
+            return replace(other, spread=other.spread + np.outer(off, off))
+    return found
+
+
+def _gains(trends: list[Trend], found: Estimate) -> tuple[GainOfMove, ...]:
+    """Of each move, where there is one trend."""
+    if len(trends) > 1:
+        return ()
+    share = 1 - found.noise.sigma / max(float(np.std(trends[0].y)), 1e-300)
+    step = resolution_of(trends)
+    floor = max(BELIEVED * response_of(trends), step / np.sqrt(12))
+    return gains_per_move(found.fit, share, find_moves(trends[0]), floor)
 
 
 def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
@@ -133,7 +171,7 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
     names, values, covariance = natural(found)
     errors = np.sqrt(np.diag(covariance))
     parameters: Mapping[str, float] = dict(zip(names, values.tolist(), strict=True))
-    refuse_weak(found)
+    _refuse_weak(trends, found)
     if sign is not None and parameters[first] * checks.whole("sign", sign, -1, 1) <= 0:
         raise NotIdentifiable(
             f"The gain is {parameters[first]:.3g}, against the sign given: PV was moved by something else, or the loop "
@@ -141,14 +179,12 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
         )
     width = float(student.ppf(0.975, found.freedom))
     plant, model = as_model(problem.structure.key, parameters)
-    step = resolution_of(trends)
-    floor = max(BELIEVED * response_of(trends), step / np.sqrt(12))
     own = problem.root_weight > 0
     around = np.concatenate([problem.y[part] - problem.y[part].mean() for part in problem.parts])
     residuals = found.fit.residual
     moved = float(np.linalg.norm(around * own))
     share = 1 - float(np.linalg.norm(residuals * own)) / moved if moved > 0 else 0.0
-    moves = gains_per_move(found.fit, share, find_moves(trends[0]), floor) if len(trends) == 1 else ()
+    moves = _gains(trends, found)
     bias, slope = along(found)
     return Identified(
         structure=problem.structure.key,
@@ -171,6 +207,16 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
         criterion=np.nan,
         estimate=found,
     )
+
+
+def _refuse_weak(trends: list[Trend], found: Estimate) -> None:
+    """Refuse a gain that is none; where that is so because moves disagree, this is the reason."""
+    try:
+        refuse_weak(found)
+    except NotIdentifiable:
+        for said in disagree(_gains(trends, found)):
+            raise NotIdentifiable(said) from None
+        raise
 
 
 def _follows(trends: list[Trend], parameters: Mapping[str, float], bias: Array) -> list[str]:

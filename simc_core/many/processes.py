@@ -9,9 +9,10 @@ from simc_core.many.worker import Worker
 
 
 class Processes:
-    """n processes, each driven by a thread that waits for it."""
+    """n processes, each driven by a thread that waits for it.   nice: as of Worker."""
 
-    def __init__(self, n: int):
+    def __init__(self, n: int, nice: int = 0):
+        self._nice, self._max_workers = nice, n  # the second as a ProcessPoolExecutor has it
         self._threads = ThreadPoolExecutor(n)
         self._own = local()
         self._workers: list[Worker] = []
@@ -22,9 +23,9 @@ class Processes:
     def __exit__(self, *_: object) -> None:
         self.shutdown()
 
-    def submit(self, function: Callable[[Any], Any], argument: Any) -> "Future[Any]":
-        """function(argument), in one of the processes."""
-        return self._threads.submit(self._call, function, argument)
+    def submit(self, function: Callable[[Any], Any], argument: Any, longest: float | None = None) -> "Future[Any]":
+        """function(argument), in one of the processes; one that takes longer than so many seconds is ended."""
+        return self._threads.submit(self._call, function, argument, longest)
 
     def shutdown(self) -> None:
         """End all processes, whatever they are at."""
@@ -33,8 +34,8 @@ class Processes:
             worker.end()
         self._threads.shutdown()
 
-    def _call(self, function: Callable[[Any], Any], argument: Any) -> Any:
+    def _call(self, function: Callable[[Any], Any], argument: Any, longest: float | None) -> Any:
         if not hasattr(self._own, "worker"):
-            self._own.worker = Worker()
+            self._own.worker = Worker(self._nice)
             self._workers.append(self._own.worker)
-        return self._own.worker.call(function, argument)
+        return self._own.worker.call(function, argument, longest)

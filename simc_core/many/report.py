@@ -10,6 +10,7 @@ from html import escape
 from pathlib import Path
 
 from simc_core.figures.palette import css_variables
+from simc_core.many.drawn import drawn
 from simc_core.many.result import TROUBLES
 from simc_core.many.results_csv import BETWEEN, SOUND
 from simc_core.notation import number
@@ -19,7 +20,7 @@ from simc_core.studies.bands import exceeds
 Line = Mapping[str, str]
 
 STYLE = Path(__file__).with_name("report.css").read_text(encoding="utf-8")
-MOST_LINES, MOST_SHEETS = 20_000, 2_000
+MOST_LINES, MOST_SHEETS, MOST_DRAWN = 20_000, 2_000, 300
 WORTH = 1.5  # load IAE now over new, from which it is told
 IN_SUMMARY = {
     "not stable": "not stable now",
@@ -78,7 +79,9 @@ def report(lines: Iterable[Line], title: str = "Many loops") -> str:
         parts.append("<h2>Loop by loop</h2>")
         if len(tuned) > MOST_SHEETS:
             parts.append(f"<p>The first {MOST_SHEETS}; all of them are in results.csv.</p>")
-        parts += [_sheet(line) for line in tuned[:MOST_SHEETS]]
+        parts += [
+            _sheet(line, drawn(line, f"y{i}") if i < MOST_DRAWN else "") for i, line in enumerate(tuned[:MOST_SHEETS])
+        ]
     return (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
@@ -130,7 +133,7 @@ def _refusals(lines: Sequence[Line]) -> str:
     return f'<h2>Not tuned</h2><div class="wide"><table>{head}{entries}</table></div>'
 
 
-def _sheet(line: Line) -> str:
+def _sheet(line: Line, figure: str) -> str:
     """Everything that is known of a loop."""
     entries = {words: line[name] for name, words in SHEET.items() if line[name]}
     model = [f"{words} = {_shown(text)}" for name, words in MODEL.items() if (text := line[f"model_{name}"])]
@@ -147,7 +150,8 @@ def _sheet(line: Line) -> str:
         )
     rows = "".join(f"<dt>{escape(name)}</dt><dd>{escape(text)}</dd>" for name, text in entries.items() if text)
     advice = "".join(f"<li>{escape(each)}</li>" for each in line["advice"].split(BETWEEN) if each)
-    return f"<details><summary>{_name(line)}</summary><dl>{rows}</dl>{f'<ul>{advice}</ul>' * bool(advice)}</details>"
+    told = f"<dl>{rows}</dl>{figure}{f'<ul>{advice}</ul>' * bool(advice)}"
+    return f"<details><summary>{_name(line)}</summary>{told}</details>"
 
 
 def _robustness(line: Line) -> str:

@@ -31,7 +31,7 @@ HEAD = (
     *("row", "tag", "refusal", "plant", "form", "Kc", "tau_I", "tau_D", "tau_F", "K_I"),
     *("Ms", "Mt", "GM", "PM_deg", "delay_margin", "IAE_load", "IAE_setpoint", "overshoot", "settling_time"),
     *("model", "model_k", "model_theta", "model_tau1", "model_tau2", "model_a", "model_tau0", "model_zeta"),
-    *("now", "settings_now", "Ms_now", "IAE_load_now", "IAE_setpoint_now", "load_ratio"),
+    *("now", "form_now", "settings_now", "tau_F_now", "Ms_now", "IAE_load_now", "IAE_setpoint_now", "load_ratio"),
     *("box", "typed", "action", "variants_stable", "variants_Ms_median", "variants_Ms_95", "advice"),
 )
 SOUND = "sound"
@@ -70,6 +70,8 @@ def cells(result: Result) -> dict[str, str]:
     if result.present is not None:
         now = result.present
         found["now"] = result.trouble or SOUND
+        found["form_now"] = FORMS[type(now.controller)]
+        found["tau_F_now"] = _number(getattr(now.controller, "tau_F", 0.0))
         found["settings_now"] = ", ".join(f"{name} = {value:.6g}" for name, value in now.controller.settings.items())
         found["Ms_now"] = _number(now.margins.Ms)
         if now.performance is not None:

@@ -1,13 +1,14 @@
 """Rows in chunks, here or by somebody's workers: order kept, bounded numbers of rows on their way, none lost.
 
-A chunk that fails, because its process is gone, is done again row by row in a process of its own, so that only the row
-that ends its process is refused.
+A chunk that fails, because its process is gone or takes too long, is done again row by row in a process of its own, so
+that only the row that ends its process, or hangs in it, is refused. A pool with a process that hangs is ended, and
+replaced as one that is broken.
 """
 
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from itertools import islice
 from typing import Any
 
@@ -15,12 +16,13 @@ from simc_core.errors import WrongType
 from simc_core.many.processes import Processes
 from simc_core.many.result import Result, refused
 from simc_core.many.tune_rows import tune_chunk
-from simc_core.many.worker import Worker, WorkerGone
+from simc_core.many.worker import TookTooLong, Worker, WorkerGone
 
 ROWS = 1000  # of a chunk: a second; with fewer, too few loops have the same structure
-ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched
+ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched, at least; two a worker where there are more
 
-LONGEST = 60.0  # seconds that a row may take when it is alone, the start of its process with it
+LONGEST = 60.0  # seconds that a row may take when it is alone; of a chunk one row may, and
+A_ROW = 0.25  # each further one so many, `weight` times that where a tune of one's own says so
 ATTEMPTS = 2
 
 Row = Mapping[str, Any]
@@ -105,18 +107,19 @@ def _submitted(chunks: Iterator[list[Row]], executor: Any, tune: TuneChunk) -> I
     own: Processes | None = None
     alone = Worker()
     waiting: deque[tuple[list[Row], Any]] = deque()
+    most = max(ON_THEIR_WAY, 2 * _workers(executor))
     try:
         for rows in chunks:
             try:
-                future = (own or executor).submit(tune, rows)
+                future = _submit(own or executor, tune, rows)
             except BrokenExecutor:
                 own = Processes(_workers(executor))
-                future = own.submit(tune, rows)
+                future = _submit(own, tune, rows)
             waiting.append((rows, future))
-            if len(waiting) >= ON_THEIR_WAY:
-                yield from _fetched(*waiting.popleft(), tune, alone)
+            if len(waiting) >= most:
+                yield from _fetched(*waiting.popleft(), tune, alone, executor)
         while waiting:
-            yield from _fetched(*waiting.popleft(), tune, alone)
+            yield from _fetched(*waiting.popleft(), tune, alone, executor)
     finally:
         for _, future in waiting:
             future.cancel()
@@ -126,24 +129,51 @@ def _submitted(chunks: Iterator[list[Row]], executor: Any, tune: TuneChunk) -> I
 
 
 def _workers(executor: Any) -> int:
-    """As many as the executor that is replaced, where it tells."""
+    """Of the executor, where it tells."""
+    if hasattr(executor, "ncores"):  # a Dask client: by the addresses of its workers
+        return max(sum(executor.ncores().values()), 1)
     return getattr(executor, "_max_workers", None) or os.cpu_count() or 1
 
 
-def _fetched(rows: list[Row], future: Any, tune: TuneChunk, alone: Worker) -> list[Result]:
+def _submit(executor: Any, tune: TuneChunk, rows: list[Row]) -> Any:
+    if isinstance(executor, Processes):  # which end what takes too long
+        return executor.submit(tune, rows, _longest(tune, rows))
+    return executor.submit(tune, rows)
+
+
+def _longest(tune: TuneChunk, rows: Sequence[Row]) -> float:
+    """Seconds that a chunk may take."""
+    return LONGEST + A_ROW * len(rows) * getattr(tune, "weight", 1.0)
+
+
+def _fetched(rows: list[Row], future: Any, tune: TuneChunk, alone: Worker, executor: Any) -> list[Result]:
     try:
-        return future.result()
+        # chunks are fetched in the order in which they were given: this one is being worked on, or next
+        return future.result(None if isinstance(executor, Processes) else _longest(tune, rows))
+    except TimeoutError:
+        _end(executor)
     except Exception:  # a process that is gone, or whatever else the executor makes of it
-        return [_alone(row, tune, alone) for row in rows]
+        pass
+    return [_alone(row, tune, alone) for row in rows]
+
+
+def _end(executor: Any) -> None:
+    """End the processes of a pool, one of which hangs: nothing else ends them, not even the end of the program."""
+    if isinstance(executor, ProcessPoolExecutor):
+        for process in list((executor._processes or {}).values()):
+            process.kill()
 
 
 def _alone(row: Row, tune: TuneChunk, worker: Worker) -> Result:
     """A row in a process of its own; a refusal where that ends every time: once it may have been ended from outside."""
+    longest = _longest(tune, [row])
     for _ in range(ATTEMPTS):
         try:
-            return worker.call(tune, [row], LONGEST)[0]
+            return worker.call(tune, [row], longest)[0]
+        except TookTooLong:
+            return refused(row, f"it took longer than {longest:g} s and was ended")
         except WorkerGone:
             continue
         except Exception as error:
             return refused(row, error)
-    return refused(row, f"its process ended without an answer within {LONGEST:g} s, {ATTEMPTS} times")
+    return refused(row, f"its process ended without an answer, {ATTEMPTS} times")

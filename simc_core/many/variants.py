@@ -57,6 +57,11 @@ class TuneWithVariants:
         checks.whole("seed", self.seed, 0, 2**32)
         checks.real("spread", self.spread, 0.0, 0.9)
 
+    @property
+    def weight(self) -> float:
+        """How many times longer than a plain one a row may take."""
+        return 1 + self.n / 5
+
     def __call__(self, rows: Sequence[Mapping[str, Any]]) -> list[Result]:
         return [self._with_variants(result) for result in tune_chunk(rows)]
 

@@ -49,6 +49,21 @@ class Criterion:
         """Weight c of the set point in the derivative."""
         return float(self.name != "load")
 
+    def least(self, IE: np.ndarray) -> np.ndarray:
+        """A lower bound of it, from the integral of the error after a load, tau_I/Kc.
+
+        After a step of the output the error has the integral tau_I/(Kc k), and 0 round an integrating plant.
+        """
+        after_output = IE / abs(self.plant.k) * (self.plant.integrators == 0)
+        match self.name:
+            case "load":
+                return IE
+            case "setpoint":
+                return after_output
+            case _:
+                assert self.references is not None  # criterion_of gives them to J
+                return J(self.references, after_output, IE)
+
     def __call__(self, forms: Sequence[ParallelPid]) -> np.ndarray:
         """Of each controller, all with one tau_F; math.inf where the loop does not come to rest."""
         setpoint, load = absolute_errors(self.plant, forms)

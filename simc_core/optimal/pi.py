@@ -1,75 +1,141 @@
-"""The best PI controller under a bound of max(Ms, Mt): one search over log tau_I with Kc at its upper edge.
+"""The best PI controllers under bounds of max(Ms, Mt): a search over log tau_I for each, with Kc at its upper edge.
 
 Where the criterion falls when Kc is reduced the bound does not matter: then Kc is searched too, below the edge.
 The set point of an integrating plant is best followed without integral action, tau_I = inf.
 
-Searches go by several controllers at a time, closer and closer: a march of seven costs little more than one, and
-minima are often kinks (tau_I = tau1), where parabolas do not help.
+The criterion does not know the bound, so the searches for several bounds walk together: a march of sixty controllers
+costs little more than ten of one. No |e| has a smaller integral than e: where that alone, tau_I/Kc, is more than what
+was found, nothing is simulated.
 """
 
 import math
+from collections.abc import Generator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from simc_core.optimal.problem import Found, Problem
+from simc_core.optimal.valley import lowest
 
 SHAPES, WIDER = 15, 3  # integral times of the first look; how often it looks further where the best is the last
 LEAST, MOST = 0.15, 15.0  # of these, in units of the scale, or up to all times of the plant
-POINTS, ZOOMS = 7, 6  # of a closer look
-EQUALLY_GOOD = 1e-7  # relative; the neighbours of a minimum that are as good as it
+POINTS, ZOOMS = 7, 6  # of a closer look at the gain alone
 INSIDE = 0.998  # of Kc at the edge: where a bound that matters makes the criterion worse
 BELOW = 0.8  # log Kc below the edge, of the first look there
 CLOSER, ROUNDS = 0.4, 9  # what each look at Kc and tau_I together is narrowed by, and how many there are
 
 
-def best_pi(problem: Problem) -> Found | None:
-    """None where no integral time allows a stable loop with the bound."""
-    found = [each for each in (_with_integral(problem), _without(problem)) if each is not None]
-    return min(found, key=lambda each: each.value, default=None)
+class Asked(NamedTuple):
+    """Integral times, and the part of Kc at the edge; answered by the criterion and its lower bound."""
+
+    log_tau_I: np.ndarray
+    part: float = 1.0
+    simulated: bool = True
 
 
-def _with_integral(problem: Problem) -> Found | None:
-    x, values = _first_look(problem)
-    if not np.isfinite(values).any():
-        return None
-    i = int(values.argmin())
-    low, high = x[max(i - 1, 0)], x[min(i + 1, len(x) - 1)]
-    wide = (high - low) / 2
-    best = x[i], values[i]
-    for _ in range(ZOOMS):
-        closer = np.linspace(low, high, POINTS + 2)[1:-1]
-        values = _at_edge(problem, closer)
-        i = int(values.argmin())
-        best = min(best, (closer[i], values[i]), key=lambda each: each[1])
-        low, high = closer[max(i - 1, 0)], closer[min(i + 1, POINTS - 1)]
-        around = values[max(i - 1, 0) : i + 2]
-        if around.max() <= values[i] * (1 + EQUALLY_GOOD):
-            break
-    tau_I, value = math.exp(best[0]), float(best[1])
-    Kc = float(problem.edges(tau_I)[1][0])
-    if problem.values(INSIDE * Kc, tau_I)[0] >= value:
-        return Found(Kc, tau_I, 0.0, value)
-    return _free(problem, best[0], wide)
+class Edge(NamedTuple):
+    """Where the criterion is smallest along the edge; whether the bound holds it there.   step: of the first look."""
+
+    log_tau_I: float
+    value: float
+    active: bool
+    step: float
 
 
-def _at_edge(problem: Problem, x: np.ndarray) -> np.ndarray:
-    """The criterion of each tau_I = e^x at the largest Kc."""
-    return problem.values(problem.edges(np.exp(x))[1], np.exp(x))
+Walk = Generator[Asked, np.ndarray, Edge | None]
 
 
-def _first_look(problem: Problem) -> tuple[np.ndarray, np.ndarray]:
-    """log tau_I, and the criterion at the edge of each."""
+def best_pi(problems: Sequence[Problem]) -> list[Found | None]:
+    """Of each bound, of one plant and criterion; None where no integral time allows a stable loop with it."""
+    found = []
+    for problem, edge in zip(problems, _together(problems), strict=True):
+        each = [_without(problem)]
+        if edge is not None:
+            each.append(_at(problem, edge) if edge.active else _free(problem, edge.log_tau_I, edge.step))
+        found.append(min([one for one in each if one is not None], key=lambda one: one.value, default=None))
+    return found
+
+
+def _at(problem: Problem, edge: Edge) -> Found:
+    tau_I = math.exp(edge.log_tau_I)
+    return Found(float(problem.edges(tau_I)[1][0]), tau_I, 0.0, edge.value)
+
+
+def _together(problems: Sequence[Problem]) -> list[Edge | None]:
+    """All walks, each step of them as one."""
+    one, bounds = problems[0], np.array([problem.M for problem in problems])
+    found: dict[int, Edge | None] = {}
+    asked: dict[int, Asked] = {}
+    walks = [_along_the_edge(problem) for problem in problems]
+
+    def answer(i: int, value: np.ndarray | None) -> None:
+        try:
+            asked[i] = next(walks[i]) if value is None else walks[i].send(value)
+        except StopIteration as end:
+            found[i] = end.value
+
+    for i in range(len(walks)):
+        answer(i, None)
+    while asked:
+        which, asked_now = list(asked), list(asked.values())
+        asked.clear()
+        sizes = [len(each.log_tau_I) for each in asked_now]
+        tau_I = np.exp(np.concatenate([each.log_tau_I for each in asked_now]))
+        high = one.gains.highest(one.shapes(tau_I), bounds[which].repeat(sizes))[1]
+        Kc = high * np.repeat([each.part for each in asked_now], sizes)
+        simulated = np.repeat([each.simulated for each in asked_now], sizes)
+        values = np.empty(len(Kc))
+        values[simulated] = one.values(Kc[simulated], tau_I[simulated])
+        values[~simulated] = one.least(Kc[~simulated], tau_I[~simulated])
+        for i, value in zip(which, np.split(values, np.cumsum(sizes)[:-1]), strict=True):
+            answer(i, value)
+    return [found[i] for i in range(len(walks))]
+
+
+def _along_the_edge(problem: Problem) -> Walk:
+    """The walk of one bound."""
     low, high = LEAST * problem.scale, max(MOST * problem.scale, 2 * problem.times)
     x = np.linspace(math.log(low), math.log(high), SHAPES)
-    values, more = _at_edge(problem, x), (x[1] - x[0]) * np.arange(1, 1 + SHAPES // 2)
+    step = float(x[1] - x[0])
+    values = yield from _where_it_may_be(x)
     for _ in range(WIDER):
         i = int(values.argmin())
         if not np.isfinite(values[i]) or 0 < i < len(x) - 1:
             break
+        more = step * np.arange(1, 1 + SHAPES // 2)
         further = x[0] - more[::-1] if i == 0 else x[-1] + more
-        sides = [(further, _at_edge(problem, further)), (x, values)][:: 1 if i == 0 else -1]
+        sides = [(further, (yield Asked(further))), (x, values)][:: 1 if i == 0 else -1]
         x, values = (np.concatenate(parts) for parts in zip(*sides, strict=True))
-    return x, values
+    if not np.isfinite(values).any():
+        return None
+    closer = lowest(list(zip(x.tolist(), values.tolist(), strict=True)))
+    try:
+        places = next(closer)
+        while True:
+            places = closer.send((yield Asked(places)))
+    except StopIteration as end:
+        best, value = end.value
+    inside = yield Asked(np.array([best]), INSIDE)
+    return Edge(best, value, bool(inside[0] >= value), step)
+
+
+def _where_it_may_be(x: np.ndarray) -> Generator[Asked, np.ndarray, np.ndarray]:
+    """The criterion at these places; where it cannot be smallest, a lower bound of it."""
+    values = (yield Asked(x, simulated=False)).copy()
+    known = ~np.isfinite(values)
+    while True:
+        best = values[known].min(initial=math.inf)
+        i = int(np.where(known, math.inf, values).argmin())
+        if known[i] or values[i] >= best:
+            break
+        near = np.flatnonzero(~known & (np.abs(np.arange(len(x)) - i) <= 1 + (best == math.inf)))
+        values[near] = yield Asked(x[near])
+        known[near] = True
+    i = int(values.argmin())
+    beside = np.array([j for j in range(max(i - 2, 0), min(i + 3, len(x))) if not known[j]], dtype=int)
+    if beside.size:
+        values[beside] = yield Asked(x[beside])
+    return values
 
 
 def _free(problem: Problem, x: float, wide: float) -> Found:

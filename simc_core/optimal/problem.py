@@ -60,6 +60,11 @@ class Problem:
             found[good] = self.criterion(self.forms(rows))
         return found
 
+    def least(self, Kc: ArrayLike, tau_I: ArrayLike) -> np.ndarray:
+        """What the criterion of PI controllers is at least: of the integrals of e; math.inf where Kc is nan."""
+        IE = np.asarray(tau_I) / np.asarray(Kc)
+        return np.where(np.isfinite(IE), self.criterion.least(IE), math.inf)
+
     def forms(self, rows: Iterable[tuple[float, float, float]]) -> Sequence[ParallelPid]:
         """Controllers of (Kc, tau_I, tau_D)."""
         c = self.criterion.weighs_derivative

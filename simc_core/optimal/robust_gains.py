@@ -88,9 +88,9 @@ class RobustGains:
         self.resolved = self.omega <= (LAST / plant.theta if plant.theta else math.inf)
         self.on_grid = self.G(1j * self.omega)
 
-    def gaps(self, shapes: Shapes, M: float, zooms: int = ZOOMS) -> list[list[Gap]]:
-        """All gaps of each shape, ascending."""
-        c = 1 - 1 / M**2
+    def gaps(self, shapes: Shapes, M: ArrayLike, zooms: int = ZOOMS) -> list[list[Gap]]:
+        """All gaps of each shape, ascending. M: one for all, or one for each."""
+        c = np.broadcast_to(1 - 1 / np.square(M), len(shapes.gains))
         owner, low, high, turn = self._runs(shapes, c, zooms)
         cap = self.cap(shapes, M)
         at_first = self._at_first(shapes)
@@ -98,11 +98,11 @@ class RobustGains:
         begins = owner.searchsorted(np.arange(len(shapes.gains) + 1))
         for i, (start, end) in enumerate(zip(begins[:-1].tolist(), begins[1:].tolist(), strict=True)):
             runs = list(zip(low[start:end].tolist(), high[start:end].tolist(), turn[start:end].tolist(), strict=True))
-            found.append(self._between(runs, c, cap[i], at_first[i]))
+            found.append(self._between(runs, float(c[i]), float(cap[i]), at_first[i]))
         return found
 
-    def highest(self, shapes: Shapes, M: float, zooms: int = ZOOMS) -> tuple[np.ndarray, np.ndarray]:
-        """Edges of the highest stable gap of each shape, (n,) each; nan where there is none."""
+    def highest(self, shapes: Shapes, M: ArrayLike, zooms: int = ZOOMS) -> tuple[np.ndarray, np.ndarray]:
+        """Edges of the highest stable gap of each shape, (n,) each; nan where there is none. M as in `gaps`."""
         edges = np.full((len(shapes.gains), 2), math.nan)
         for i, gaps in enumerate(self.gaps(shapes, M, zooms)):
             stable = [gap for gap in gaps if gap.unstable == 0]
@@ -123,17 +123,18 @@ class RobustGains:
                 break
         return gaps
 
-    def _runs(self, shapes: Shapes, c: float, zooms: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def _runs(self, shapes: Shapes, c: np.ndarray, zooms: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Owner, smallest low, largest high and turn (Im g from - to +: 1, from + to -: -1) of each run."""
         g = self.on_grid * shapes.over(1j * self.omega)
         N = len(self.omega)
         size = np.abs(g)
         p = -g.real / size
-        at = np.flatnonzero(p > math.sqrt(c))
+        at = np.flatnonzero(p > np.sqrt(c)[:, None])
         if not at.size:
             return np.zeros(0, int), np.zeros(0), np.zeros(0), np.zeros(0, int)
-        x, size, above = _larger_root(p.ravel()[at], c), size.ravel()[at], g.imag.ravel()[at] >= 0
-        log_low, log_high = np.log(c / (x * size)), np.log(x / size)
+        own_c = c[at // N]
+        x, size, above = _larger_root(p.ravel()[at], own_c), size.ravel()[at], g.imag.ravel()[at] >= 0
+        log_low, log_high = np.log(own_c / (x * size)), np.log(x / size)
         new = np.concatenate([[True], (np.diff(at) > 1) | (at[1:] % N == 0)])
         first = np.flatnonzero(new)
         last = np.append(first[1:], len(at)) - 1
@@ -164,9 +165,11 @@ class RobustGains:
         return np.flatnonzero((values <= before) & (values <= after) & near)
 
     def _refined(
-        self, shapes: Shapes, c: float, owner: np.ndarray, column: np.ndarray, upper: np.ndarray, zooms: int
+        self, shapes: Shapes, c: np.ndarray, owner: np.ndarray, column: np.ndarray, upper: np.ndarray, zooms: int
     ) -> np.ndarray:
         """log low, or -log high where `upper`, at the minimum next to a node of the grid."""
+        own_c = c[owner][:, None]
+        least = np.sqrt(own_c)
         omega, steps = self.omega, np.linspace(0, 1, ZOOM)
         left, right = omega[np.maximum(column - 1, 0)], omega[np.minimum(column + 1, len(omega) - 1)]
         every = np.arange(len(owner))
@@ -175,8 +178,8 @@ class RobustGains:
             g = self.G(s) * shapes.at(s, owner)
             size = np.abs(g)
             p = -g.real / size
-            x = _larger_root(np.maximum(p, math.sqrt(c)), c)
-            values = np.where(p > math.sqrt(c), np.log(np.where(upper[:, None], size / x, c / (x * size))), np.inf)
+            x = _larger_root(np.maximum(p, least), own_c)
+            values = np.where(p > least, np.log(np.where(upper[:, None], size / x, own_c / (x * size))), np.inf)
             best = np.clip(values.argmin(axis=1), 1, ZOOM - 2)
             left, right = s.imag[every, best - 1], s.imag[every, best + 1]
         before, middle, after = (values[every, best + shift] for shift in (-1, 0, 1))
@@ -191,7 +194,7 @@ class RobustGains:
         order = np.where(shapes.gains[:, 2] != 0, 1, np.where(shapes.gains[:, 0] != 0, 0, -1))
         return self.G.relative_degree + (shapes.tau_F > 0) - order
 
-    def cap(self, shapes: Shapes, M: float) -> np.ndarray:
+    def cap(self, shapes: Shapes, M: ArrayLike) -> np.ndarray:
         """What |L(inf)| <= 1 - 1/M of a neutral loop allows."""
         if not self.plant.theta:
             return np.full(len(shapes.gains), math.inf)
@@ -199,7 +202,7 @@ class RobustGains:
         leading = np.where(shapes.gains[:, 2] != 0, shapes.gains[:, 2], shapes.gains[:, 0])
         size = np.abs(gain * leading / (shapes.tau_F or 1.0))
         with np.errstate(divide="ignore"):
-            return np.where(degree > 0, math.inf, np.where(degree < 0, 0.0, (1 - 1 / M) / size))
+            return np.where(degree > 0, math.inf, np.where(degree < 0, 0.0, (1 - 1 / np.asarray(M)) / size))
 
     def _at_first(self, shapes: Shapes) -> list[int]:
         """Unstable poles of each closed loop as its gain goes to 0."""
@@ -242,7 +245,7 @@ def peak_bound(name: str, value: object) -> float:
     return number
 
 
-def _larger_root(p: np.ndarray, c: float) -> np.ndarray:
+def _larger_root(p: np.ndarray, c: np.ndarray) -> np.ndarray:
     return p + np.sqrt(np.maximum(p * p - c, 0.0))
 
 

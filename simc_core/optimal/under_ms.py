@@ -5,6 +5,7 @@ degrees. None is found where no shape has a robust gain. Settings are found for 
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -78,19 +79,51 @@ class Search:
                 "tau_F must be > 0 for a PID controller of a plant that answers at once (of relative degree 0), found 0"
             )
 
-    def best(self, M: float, warm: Found | None = None) -> tuple[Optimum, Found]:
-        """The optimum for max(Ms, Mt) <= M. warm: that for a larger bound. Raises NoOptimum."""
-        problem = Problem(self.plant, self.criterion, M, self.scale, self.tau_F)
-        self._refuse_endless(problem)
-        if self.kind == "PI":
-            found = best_pi(problem)
-        else:
-            found = best_pid(problem, self.series, self.guess, warm)
-            if found is None and warm is not None:
-                found = best_pid(problem, self.series, self.guess)
+    def best(self, M: float) -> Optimum:
+        """The optimum for max(Ms, Mt) <= M. Raises NoOptimum."""
+        problem = self._problem(M)
+        found = best_pi([problem])[0] if self.kind == "PI" else best_pid(problem, self.series, self.guess)
         if found is None:
             raise NoOptimum(self._infeasible(problem))
-        return self._optimum(problem, found), found
+        return self._optimum(problem, found)
+
+    def front(self, bounds: Sequence[float]) -> list[Optimum]:
+        """The optima for bounds in descending order, up to the first that has none. Raises NoOptimum without any.
+
+        What is best without a bound is best under all bounds that it meets. PI controllers are searched for together,
+        each PID controller from those for larger bounds.
+        """
+        found = [self.best(bounds[0])]
+        free = [] if found[0].active else [M for M in bounds[1:] if max(found[0].Ms, found[0].Mt) <= M]
+        found += found * len(free)
+        problems = [self._problem(M) for M in bounds[len(found) :]]
+        if self.kind == "PID":
+            return self._one_after_the_other(found, problems)
+        for problem, best in zip(problems, best_pi(problems) if problems else [], strict=True):
+            if best is None:
+                break
+            found.append(self._optimum(problem, best))
+        return found
+
+    def _one_after_the_other(self, found: list[Optimum], problems: Sequence[Problem]) -> list[Optimum]:
+        """PID: each search begins where the last ones ended."""
+        for problem in problems:
+            last = found[-1]
+            if not last.active and max(last.Ms, last.Mt) <= problem.M:
+                found.append(last)
+                continue
+            best = best_pid(problem, self.series, self.guess, _warm(found, problem.M))
+            best = best or best_pid(problem, self.series, self.guess)
+            if best is None:
+                break
+            found.append(self._optimum(problem, best))
+        return found
+
+    def _problem(self, M: float) -> Problem:
+        """Raises NoOptimum where ever better controllers meet the bound."""
+        problem = Problem(self.plant, self.criterion, M, self.scale, self.tau_F)
+        self._refuse_endless(problem)
+        return problem
 
     def _optimum(self, problem: Problem, found: Found) -> Optimum:
         sign, c = problem.sign, problem.criterion.weighs_derivative if found.tau_D else 0.0
@@ -133,12 +166,28 @@ class Search:
         return f"{said}: the smallest that was found is about {high:.3g}"
 
 
+def _warm(found: Sequence[Optimum], M: float) -> Found:
+    """Where the search for the next bound begins: where the last two point to."""
+    last = _settings(found[-1])
+    if len(found) > 1 and found[-1].active and found[-2].active:
+        before, (M_before, M_last) = _settings(found[-2]), (max(each.Ms, each.Mt) for each in found[-2:])
+        share = math.log(M / M_last) / math.log(M_last / M_before)
+        ahead = last * (last / before) ** share
+        last = ahead if np.isfinite(ahead).all() else last
+    Kc, tau_I, tau_D = last.tolist()
+    return Found(Kc, tau_I, tau_D, found[-1].value)
+
+
+def _settings(optimum: Optimum) -> np.ndarray:
+    form = optimum.controller.to_ideal()
+    return np.array([abs(form.Kc), form.tau_I, form.tau_D])
+
+
 @lru_cache(maxsize=64)
 def references(plant: Plant, scale: float) -> References:
     """IAE of the PI controllers that are best for set point and for load with Ms = 1.59 [SG12]. Raises NoOptimum."""
     values = [
-        Search(plant, "PI", Criterion(plant, name), scale, 0.0).best(REFERENCE_M)[0].value
-        for name in ("setpoint", "load")
+        Search(plant, "PI", Criterion(plant, name), scale, 0.0).best(REFERENCE_M).value for name in ("setpoint", "load")
     ]
     return References(*values)
 

@@ -18,6 +18,7 @@ at which it would turn out differently. Between two of those the outcome is one 
 """
 
 import math
+from bisect import bisect_left
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
@@ -122,7 +123,7 @@ def remove_leads(
 
     leads: (index in the plant, T0). Raises NotReducible where a zero meets neither a lag nor an integrator.
     """
-    lags, matches, gain = list(lags), [], 1.0
+    lags, matches, gain = sorted_lags(lags, comparisons), [], 1.0
     for index, T0 in sorted(leads, key=lambda lead: -lead[1]):
         lag, smaller = _partner(T0, lags, integrators, comparisons)
         match, rest = (_smaller if smaller else _larger)(index, T0, lag, comparisons)
@@ -133,8 +134,8 @@ def remove_leads(
         else:
             lags.remove(lag)
         if rest is not None:
-            lags.append(replace(lag, tau=rest))
-    return Removal(tuple(sorted_lags(lags, comparisons)), integrators, gain, tuple(matches))
+            lags = sorted_lags([*lags, replace(lag, tau=rest)], comparisons)
+    return Removal(tuple(lags), integrators, gain, tuple(matches))
 
 
 def sorted_lags(lags: list[Lag], comparisons: Comparisons) -> list[Lag]:
@@ -147,13 +148,13 @@ def sorted_lags(lags: list[Lag], comparisons: Comparisons) -> list[Lag]:
 
 
 def _partner(T0: float, lags: list[Lag], integrators: int, comparisons: Comparisons) -> tuple[Lag, bool]:
-    """The lag that a zero T0 meets, and whether it is the smaller one."""
-    ordered = sorted_lags(lags, comparisons)
+    """The lag that a zero T0 meets, and whether it is the smaller one. lags: sorted."""
     zero = LineInTheta(T0)
-    above: list[Lag] = []
-    below: list[Lag] = []
-    for lag in ordered:
-        (above if comparisons.at_least(lag.tau, zero) else below).append(lag)
+    for lag in lags:
+        if lag.tau.slope:  # which may come to lie on the other side
+            comparisons.at_least(lag.tau, zero)
+    first = bisect_left(lags, True, key=lambda lag: not comparisons.at_least(lag.tau, zero))
+    above, below = lags[:first], lags[first:]
     if integrators and not above:
         above = [Lag(-1, LineInTheta(math.inf))]
     if not above and not below:

@@ -30,6 +30,7 @@ from simc_core.rules.catalogue import Rule
 from simc_core.rules.imc_1986 import PI_EPSILON, PID_EPSILON
 from simc_core.rules.simc import default_tau_c
 from simc_core.sensitivity.margins import margins_many
+from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.optimum import FILTER, scale_of
 from simc_core.studies.tune import rule_of, subject_of, tune
 
@@ -205,5 +206,9 @@ def _factor(plant: Plant, detuned: Callable[[float], Controller], M: float, fact
 
 def peaks(plant: Plant, controllers: Sequence[Controller]) -> list[float]:
     """max(Ms, Mt) of each loop, HIGHEST where it is not stable."""
-    found = margins_many([Loop(plant, each) for each in controllers])
-    return [min(max(each.Ms, each.Mt), HIGHEST) if each.stable else HIGHEST for each in found]
+    return [peak_of(each) for each in margins_many([Loop(plant, each) for each in controllers])]
+
+
+def peak_of(found: Margins) -> float:
+    """max(Ms, Mt), HIGHEST where the loop is not stable."""
+    return min(max(found.Ms, found.Mt), HIGHEST) if found.stable else HIGHEST

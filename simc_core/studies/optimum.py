@@ -76,7 +76,7 @@ def optimal(
     (3.33, 3.68, 1.134)
     """
     M = peak_bound("Ms", Ms)
-    return search_for(plant, kind, criterion, tau_F, series).best(M)[0]
+    return search_for(plant, kind, criterion, tau_F, series).best(M)
 
 
 def trade_off(
@@ -119,23 +119,7 @@ def trade_off(
     [1.13, 0.69]
     """
     bounds = sorted({peak_bound("Ms", each) for each in checks.array("Ms", Ms, MOST_BOUNDS).tolist()}, reverse=True)
-    search = search_for(plant, kind, criterion, tau_F, series)
-    found: list[Optimum] = []
-    warm = None
-    for M in bounds:
-        if found and not found[-1].active:  # what is best without a bound is best under all that it meets
-            last = found[-1]
-            if max(last.Ms, last.Mt) <= M:
-                found.append(last)
-                continue
-        try:
-            best, warm = search.best(M, warm)
-        except SimcError:
-            if not found:
-                raise
-            break
-        found.append(best)
-    return tuple(reversed(found))
+    return tuple(reversed(search_for(plant, kind, criterion, tau_F, series).front(bounds)))
 
 
 @lru_cache(maxsize=32)

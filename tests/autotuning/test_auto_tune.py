@@ -12,7 +12,6 @@ from simc_core import (
     Uncertainty,
     auto_tune,
     identify,
-    identify_all,
     margins,
     optimal,
 )
@@ -45,13 +44,12 @@ def test_without_noise_they_are_the_optimum_of_the_true_plant(kind):
 
 
 def test_the_limits_hold_on_the_true_plant():
-    """Eight tests with 10 % noise and four settings of each."""
+    """Eight tests with 10 % noise. With 95 % each, 3 of 8 fail once in 170 times; the settings of one go together."""
     kept = []
     for seed in range(8):
-        for one in auto_tune(identify_all(trend(0.1, seed))):
-            kept.append(margins(Loop(TRUTH, one.controller)).Ms <= one.limit)
-    assert len(kept) > 28
-    assert np.mean(kept) > 0.9
+        found = auto_tune(identify(trend(0.1, seed)))
+        kept.append(all(margins(Loop(TRUTH, one.controller)).Ms <= one.limit for one in found))
+    assert sum(kept) >= 6
 
 
 def test_more_noise_makes_them_slower():

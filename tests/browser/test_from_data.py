@@ -52,3 +52,35 @@ def test_a_day_of_samples_is_drawn_with_few_points(server, open_page):
     drawn = page.locator(".st-key-figure_trend .js-plotly-plot")
     points = drawn.evaluate("figure => Math.max(...figure.calcdata.map(trace => trace.length))")
     assert 1000 < points <= 2000
+
+
+def drawn_over(page, begin: float, end: float):
+    """Drag over the record, from one share of its width to another."""
+    plot = page.locator(".st-key-figure_trend .nsewdrag").first
+    plot.wait_for()
+    box = plot.bounding_box()
+    assert box
+    y = box["y"] + 0.4 * box["height"]
+    page.mouse.move(box["x"] + begin * box["width"], y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + (begin + end) / 2 * box["width"], y + 5)
+    page.mouse.move(box["x"] + end * box["width"], y + 5)
+    page.mouse.up()
+
+
+def test_a_range_is_drawn_on_the_record_to_cut_it_or_to_leave_it_out(server, open_page):
+    page = open_page(f"{server}/from_data?example=step")
+    page.locator(".st-key-drag_does").get_by_text("cuts to the range").click()
+    idle(page)
+    drawn_over(page, 0.02, 0.52)
+    page.wait_for_url(re.compile("end="))
+    idle(page)
+    end = float(re.search(r"[?&]end=([\d.]+)", page.url)[1])
+    assert abs(end - 0.52 * 699) < 40
+    expect(page.get_by_test_id("stMain")).to_contain_text(re.compile(r"3\d\d samples, noise"))
+    page.locator(".st-key-drag_does").get_by_text("leaves the range out").click()
+    idle(page)
+    drawn_over(page, 0.3, 0.4)
+    page.wait_for_url(re.compile("bad="))
+    low, high = (float(each) for each in re.search(r"bad=([\d.]+)~([\d.]+)", page.url.replace("%7E", "~")).groups())
+    assert 20 < high - low < 120

@@ -434,3 +434,28 @@ def test_a_day_at_one_second_arrives_whole():
     assert trend.t.size == n
     assert float(trend.y.sum()) == sum(i % 977 for i in range(n)) + 0.5 * n
     assert int(np.argmax(trend.u > 30)) == n // 2 + 1
+
+
+@pytest.mark.parametrize(
+    ("at", "said"), [(12.0, "moves exactly as OP does"), (13.0, "moved at once with OP"), (45.0, "changes too")]
+)
+def test_another_input_that_was_moved_is_told(at, said):
+    """A feed is moved with OP, a little later, or long after: PV may answer it."""
+    t = np.arange(0.0, 80.0, 0.5)
+    rows = "".join(f"{a};{50 + 0.1 * a:.2f};{40 + 5 * (a >= 12):.0f};{100 + 10 * (a >= at):.0f}\n" for a in t)
+    text = "t [s];PV;OP;Feed\n" + rows
+    reading = understand(load(text))
+    (question,) = (each for each in reading.questions if each.name == "inputs")
+    assert said in question.text
+    assert "Feed" in question.text
+    assert any(said in note for note in read_trend(text).notes)
+
+
+def test_op_in_a_second_unit_and_numbers_of_phases_are_no_other_input():
+    t = np.arange(0.0, 80.0, 0.5)
+    rows = "".join(
+        f"{a};{50 + 0.1 * a:.2f};{40 + 5 * (a >= 12):.0f};{4 + 0.5 * (a >= 12)};{1 + int(a // 10)};{b:.3f}\n"
+        for a, b in zip(t, np.sin(t), strict=True)
+    )
+    reading = understand(load("t [s];PV;OP;OP mA;Phase;Noise\n" + rows))
+    assert not [each for each in reading.questions if each.name == "inputs"]

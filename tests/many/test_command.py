@@ -2,13 +2,16 @@
 
 import csv
 import math
+import re
 
+import numpy as np
 import pytest
 
 from simc_core import Plant, SeriesPid, read_list, stability, tune_chunk
 from simc_core.__main__ import main
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
+from simc_core.many.drawn import drawn
 from simc_core.many.read_list import template
 from simc_core.many.report import report, worth
 from simc_core.many.results_csv import ResultsFile, as_csv, cells
@@ -150,3 +153,34 @@ def test_variants_stay_within_their_spread():
         assert each.theta == pytest.approx(3, rel=0.1 + 1e-12)
         assert each.lags[0] == pytest.approx(8, rel=0.1 + 1e-12)
         assert each.lags[1] == 4
+
+
+def area(svg: str, name: str) -> float:
+    """Between a curve and y = 0, where it begins, in pixels."""
+    points = re.search(f'data-name="{name}" points="(.*?)"', svg)[1].split()
+    x, y = np.array([list(map(float, point.split(","))) for point in points]).T
+    return float(np.sum(np.diff(x) * (y[0] - (y[1:] + y[:-1]) / 2)))
+
+
+def test_the_drawn_load_responses_have_the_areas_of_theory():
+    """The integral of y after a load step is tau_I/Kc [SK03]: 8/2 now, 8/4 new; without settings now one curve."""
+    row = {"k": "1", "theta": "1", "tau1": "8"}
+    now, alone, bad = map(cells, tune_chunk([row | {"Kc": "2", "tau_I": "8"}, row, row | {"k": "x"}]))
+    svg = drawn(now, "y0")
+    assert area(svg, "now") / area(svg, "new") == pytest.approx(2, rel=0.02)
+    assert 'data-name="now"' not in drawn(alone, "y1")
+    assert 'data-name="new"' in drawn(alone, "y1")
+    assert drawn(bad, "y2") == ""
+    assert "<svg" in report([now])
+
+
+def test_a_loop_that_is_not_stable_now_and_settings_of_every_form_are_drawn():
+    row = {"plant": "-2 exp(-s)/((8s+1)(2s+1))", "kind": "PID"}
+    for now in (
+        {"Kc": "-30", "tau_I": "8"},
+        {"Kp": "-1", "Ki": "-0.1", "Kd": "-1", "tau_F": "0.1", "form": "parallel"},
+    ):
+        (line,) = map(cells, tune_chunk([row | now]))
+        assert {'data-name="new"', 'data-name="now"'} <= set(re.findall('data-name="[a-z]+"', drawn(line, "y")))
+    (line,) = map(cells, tune_chunk([{"k": "2", "theta": "3", "tau1": "0"}]))  # pure dead time: an I controller
+    assert 'data-name="new"' in drawn(line, "y")

@@ -9,9 +9,10 @@ import pytest
 
 from simc_core import tune_many
 from simc_core.errors import WrongType
+from simc_core.many import run
 from simc_core.many.processes import Processes
 from tests.many.lists import mixed_rows
-from tests.many.workers import ends_its_process, fails_together, killed_once
+from tests.many.workers import ends_its_process, fails_together, hangs, killed_once
 
 ROW = {"k": 1, "theta": 1, "tau1": 8}
 
@@ -81,6 +82,19 @@ def test_a_worker_that_is_killed_loses_no_row(tmp_path, pool):
     assert (tmp_path / "killed").exists()
     assert [result.row for result in results] == rows
     assert not any(result.refusal for result in results)
+
+
+@pytest.mark.parametrize("pool", [pool, partial(Processes, 1)])
+def test_a_row_that_hangs_is_refused_alone(pool, monkeypatch):
+    """And the pool can be left afterwards."""
+    monkeypatch.setattr(run, "LONGEST", 1.0)
+    rows = [{"tag": f"L{i}"} for i in range(20)]
+    rows[7]["tag"] = "endless"
+    with pool() as processes:
+        results = list(tune_many(rows, processes, chunk=5, tune=hangs))
+    assert [result.row for result in results] == rows
+    assert [result.tag for result in results if result.refusal] == ["endless"]
+    assert results[7].refusal == "it took longer than 1.25 s and was ended"
 
 
 @pytest.mark.parametrize("executor", [None, Client()])

@@ -5,6 +5,8 @@ import { test } from "node:test";
 
 import { marginsOf } from "../../pages/common/live/cascade/loops.js";
 import { nearest, round, text } from "../../pages/common/live/kit/format.js";
+import { crowded, typeFor } from "../../pages/common/live/kit/lecture.js";
+import { seen } from "../../pages/common/live/kit/overlay.js";
 import { logTicks, square } from "../../pages/common/live/kit/panel.js";
 import { between, mix, sensitivities, stencil, unpack } from "../../pages/common/live/kit/table.js";
 
@@ -71,4 +73,21 @@ test("scales: round limits hold what they are given; a decade has 1 to 9; the ne
   assert.equal(nearest([1, 2, 4, 8], 6.1), 3);
   const { x, y } = square({ bbox: { width: 200, height: 100 } }, [0, 1], [0, 1]);
   close((x[1] - x[0]) / 200, (y[1] - y[0]) / 100, 1e-12, "one unit is as long on both axes");
+});
+
+test("letters of a lecture are 28 px on a large screen, in proportion to the smaller side, and never below 14", () => {
+  assert.equal(typeFor(1920, 1080), 28);
+  assert.equal(typeFor(3840, 2160), 56);
+  assert.equal(typeFor(1024, 1080), typeFor(1024, 768));
+  assert.equal(typeFor(390, 844), 14);
+  assert.deepEqual([crowded(1024, 768), crowded(860, 560), crowded(390, 844)], [false, true, true]);
+});
+
+test("the future of a curve is what lies beyond the instant; an aid stays", () => {
+  const curve = { x: [0, 1, 2, 3], y: [5, 6, 7, 8] };
+  assert.deepEqual(seen(curve, {}, "future", 1), { x: [0, 1], y: [5, 6] });
+  assert.deepEqual(seen(curve, {}, "curves", 1), { x: [], y: [] });
+  assert.deepEqual(seen(curve, {}, "future", 9), curve);
+  assert.deepEqual(seen(curve, {}, "", 1), curve);
+  assert.deepEqual(seen(curve, { aid: true }, "curves", 1), curve);
 });

@@ -182,3 +182,16 @@ def test_the_set_point_stops_at_its_limit_and_rises_at_its_rate():
     app.text_input(key="widget_r_high").set_value("-1").run()
     assert "Highest set point must be ≥ 0" in app.error[0].value
     assert address(app)["r_high"] == "1.5"
+
+
+def test_sampled_margins_stand_beside_those_of_the_linear_loop():
+    """FOPDT 8, 1 under PI 4, 8: Ms 1.5905, sampled at 0.2 1.6908, one scan later 1.898; PM at 0.1
+    59.823 [measured apart]."""
+    given = {"plant": "exp(-s)/(8s+1)"}
+    app = run_page("tuning", "As built", **given, sampling="0.2")
+    assert cell(app, "Ms: sampled · linear") == "1.69 · 1.59"
+    app = run_page("tuning", "As built", **given, sampling="0.2", scans="1")
+    assert cell(app, "Ms: sampled · linear") == "1.9 · 1.59"
+    assert "sampled every 0.2, its output written one scan later" in texts(app)
+    app = run_page("tuning", "As built", **given, sampling="0.1")
+    assert cell(app, r"PM \[°\]: sampled · linear").startswith("59.8 · ")

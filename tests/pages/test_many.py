@@ -66,7 +66,7 @@ def test_a_list_that_is_none_says_why():
 
 def test_a_job_can_be_stopped_and_keeps_what_is_there(monkeypatch):
     monkeypatch.setattr(job, "CHUNK", 1)
-    work = job.Job([{"k": 1, "theta": 1, "tau1": 8}] * 5000)
+    work = job.Job([{"k": 1, "theta": 1, "tau1": 8}] * 5000, "")
     end = time.monotonic() + PATIENCE
     while not work.results and time.monotonic() < end:
         time.sleep(0.01)
@@ -80,7 +80,7 @@ def test_one_list_at_a_time():
     """A second list waits for its turn, and can be stopped while it waits."""
     assert job.TURN.acquire(timeout=PATIENCE)
     try:
-        second = job.Job([{"k": 1, "theta": 1, "tau1": 8}])
+        second = job.Job([{"k": 1, "theta": 1, "tau1": 8}], "")
         time.sleep(0.3)
         assert second.state == "waiting"
         second.stop()
@@ -91,7 +91,7 @@ def test_one_list_at_a_time():
 
 def test_a_fault_of_the_program_is_a_state_not_a_thread_that_dies(monkeypatch):
     monkeypatch.setattr(job, "tune_many", lambda *_: 1 / 0)
-    assert ended(job.Job([{}])).state == "failed"
+    assert ended(job.Job([{}], "")).state == "failed"
     assert not [each for each in threading.enumerate() if each.name == "many loops"]
 
 

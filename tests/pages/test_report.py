@@ -14,9 +14,9 @@ from pages.common.session import links
 from pages.common.studies.single import present_study
 from pages.common.take_home.report.html import document, figures, picture
 from pages.common.take_home.report.record import report
-from pages.common.take_home.report.svg import BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH
 from pages.common.take_home.report.texts import curves_csv, markdown, settings_csv
 from simc_core import BOXES, from_box
+from simc_core.figures.svg import BOTTOM, HEIGHT, LEFT, RIGHT, TOP, WIDTH
 from tests.pages.tools import run_page
 
 P0 = {"plant": "exp(-s)/((10s+1)(3s+1))", "order": "2", "filter": "0.125", "unit": "s"}

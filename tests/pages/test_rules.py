@@ -245,3 +245,59 @@ def test_further_measures_are_columns_where_they_are_chosen():
     assert table["SIMC"]["IE, load"] == 2.0
     assert table["SIMC"]["settling to 5 %, load [s]"] < table["Lambda"]["settling to 5 %, load [s]"]
     assert np.isnan(table["symmetrical optimum"]["IE, load"])
+
+
+def rows_on(name, kind="PI", **how):
+    design = Design(compared=Compared(plant=name, kind=kind, **how))
+    return {row.key: row for row in rows_of(question_of(design))}
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "which", "expected"),
+    [
+        ("integrating", "PI", 0, (0.5, 8, 0)),  # example 3
+        ("SK98-4", "PID", 0, (0.0625, 8, 8)),
+        ("SK98-5a", "PI", 1, (50, 8, 0)),
+        ("SK98-9", "PI", 0, (0.5, 8 * 2.5, 0)),  # f = 2.5 at a theta = 0.25
+    ],
+)
+def test_the_examples_of_SK98_have_the_settings_that_are_printed(name, kind, which, expected):
+    printed = USUAL[name].printed[which]
+    assert (printed.Kc, printed.tau_I, printed.tau_D) == expected
+    found = rows_on(name, kind)["simc"].controller.to_series()
+    assert (found.Kc, found.tau_I, found.tau_D) == pytest.approx(expected, rel=1e-12)
+
+
+def test_the_pure_dead_time_of_SK98_has_the_integral_gain_that_is_printed():
+    integral, as_PI = USUAL["delay"].printed
+    assert rows_on("delay")["simc"].controller == integral
+    assert as_PI.Kc / as_PI.tau_I == integral.K_I == 0.5
+
+
+def test_an_unstable_plant_of_SK98_is_the_one_that_is_printed():
+    """e^{-s}/(s - 0.25)."""
+    s = 0.3 + 0.7j
+    assert USUAL["SK98-9"].plant.response(s) == pytest.approx(np.exp(-s) / (s - 0.25))
+
+
+@pytest.mark.parametrize(
+    ("name", "rule", "J", "Ms"), [("delay", "simc", 1.35, 1.59), ("integrating", "simc", 1.43, 1.70)]
+)
+def test_the_comparison_of_SG12_has_its_printed_numbers(name, rule, J, Ms):
+    """Table 5.4; the references of Table 5.3 are rounded, which is 0.6 % of J."""
+    row = rows_on(name, criterion="J")[rule]
+    assert (row.J, row.Mst) == (pytest.approx(J, abs=0.0085), pytest.approx(Ms, abs=0.0065))
+
+
+@pytest.mark.parametrize(("name", "J"), [("integrating", 1.51), ("lag", 1.23)])
+def test_the_best_of_SG12_is_the_one_that_is_printed(name, J):
+    """Table 5.3, combined."""
+    best = rows_on(name, criterion="J", Ms=1.59)["optimal"]
+    assert pytest.approx(J, abs=0.0075) == best.J
+
+
+@pytest.mark.parametrize("name", USUAL)
+def test_the_page_opens_on_every_preset(name):
+    app = rules(compared_plant=name)
+    assert not app.exception
+    assert ("printed in [SK98]" in texts(app)) == bool(USUAL[name].printed)

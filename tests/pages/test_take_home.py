@@ -302,3 +302,12 @@ def test_what_is_read_from_a_box_that_kicks_is_taken_without_the_kick():
     assert (own[0], *map(float, own[1:4]), own[-1]) == ("ideal", 5, 30, 12, "0")
     assert any("the derivative on PV" in each.value for each in app.info)
     assert not app.error
+
+
+def test_a_filter_of_the_measurement_comes_back_with_the_settings_of_a_box():
+    """PB 20, RSET 0.5 of a UDC behind a filter of 3 s: Kc 5, tau_I 30 s, tau_F 3 s."""
+    app = run_page("take_home", **P0, box="honeywell_udc")
+    for i, text in ((0, "20"), (1, "0.5"), (3, "3")):
+        app.text_input(key=f"box_honeywell_udc_{i}").set_value(text).run()
+    app.button(key="from_box").click().run()
+    assert list(map(float, address(app)["own"].split("~")[1:5])) == [5, 30, 0, 3]

@@ -1,5 +1,7 @@
 """The record: PV, SP and OP, which part of it is fitted, and what is left out."""
 
+from typing import Any
+
 import streamlit as st
 
 from pages.common.from_data.work import ends_of, moves_of
@@ -17,6 +19,8 @@ from simc_core.notation import number
 
 HEIGHT, TALL = 360, 460  # px
 BAD_PIECE = "bad_piece"
+TURN = "from_data_drawn"
+ZOOM, CUT, LEAVE_OUT = DRAGS = ("zooms", "cuts to the range", "leaves the range out")
 
 
 def figure(trend: Trend, design: Design, part: Trend | None, model: Identified | None) -> None:
@@ -33,7 +37,16 @@ def figure(trend: Trend, design: Design, part: Trend | None, model: Identified |
     told = " and the model with its residuals" if fitted else ""
     alt = f"Record of {name} over {number(trend.span)} {trend.units.get('t', '')}{told}"
     found = in_units(found, trend)
-    st.plotly_chart(found, key="figure_trend", config=config("trend"), alt=in_words(alt, found))
+    turn = state.lasting(TURN, lambda: 0)  # a fresh figure after each range that was drawn: nothing stays selected
+    key = f"figure_trend_{turn}"
+    pick: dict[str, Any] = {}
+    drag = state.widget("drag_does", ZOOM)
+    if drag in (CUT, LEAVE_OUT):
+        found["layout"] |= {"dragmode": "select", "selectdirection": "h"}
+        pick = {"on_select": lambda: _drawn(trend, key, turn, drag), "selection_mode": "box"}
+    with st.container(key="figure_trend"):
+        st.plotly_chart(found, key=key, config=config("trend"), alt=in_words(alt, found), **pick)
+    st.segmented_control("Dragging on the record", DRAGS, default=ZOOM, required=True, key="drag_does")
 
 
 def in_units(found: Figure, trend: Trend) -> Figure:
@@ -116,6 +129,23 @@ def _part(trend: Trend, design: Design) -> tuple[float, float]:
     begin = low if begin is None else min(max(begin, low), high)
     end = high if end is None else min(max(end, low), high)
     return (begin, end) if begin < end else (low, high)
+
+
+def _drawn(trend: Trend, key: str, turn: int, drag: str) -> None:
+    """Callback: take the range that was drawn on the record."""
+    boxes = state.widget(key)["selection"]["box"]
+    if not boxes:
+        return
+    first, last = ends_of(trend)
+    low, high = sorted(min(max(float(x), first), last) for x in boxes[0]["x"])
+    if not low < high:
+        return
+    state.make_last(TURN, turn + 1)
+    if drag == CUT:
+        state.change(begin=None, end=None)
+        state.change(begin=low if low > first else None, end=high if high < last else None)
+    elif len(state.value("bad")) < MOST_BAD:
+        _leave_out(trend, {"from": low, "to": high})
 
 
 def _take_part(low: float, high: float) -> None:

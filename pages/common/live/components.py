@@ -1,5 +1,7 @@
 """What runs in the browser, registered once: the instruments, and the messages that reach them on the same page."""
 
+import re
+from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
@@ -7,16 +9,20 @@ import streamlit as st
 
 from pages.common.live.kit.packing import pack
 from pages.common.live.modules import bundled
+from pages.common.parts.qr import qr_svg
 from pages.common.session import state
 from simc_core.figures import palette
 
 HERE = Path(__file__).parent
+WORD = re.compile("[a-z0-9_]{1,20}")
 UPLOT = HERE / "vendor" / "uplot.min.js"
 
 
 def _instrument(name: str):
     html = _text(HERE / "kit" / "live.html")
-    css = palette.css_variables(".live") + _text(UPLOT.with_suffix(".css"), HERE / "kit" / "live.css")
+    css = palette.css_variables(".live") + _text(
+        UPLOT.with_suffix(".css"), HERE / "kit" / "live.css", HERE / "kit" / "lecture.css"
+    )
     js = _text(UPLOT) + bundled(HERE / name / "main.js")
     return st.components.v2.component(f"simc_live_{name}", html=html, css=css, js=js)
 
@@ -25,10 +31,7 @@ def _text(*files: Path) -> str:
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 
 
-tuning = _instrument("tuning")
-cascade = _instrument("cascade")
-hand = _instrument("hand")
-plane = _instrument("plane")
+_instruments = {name: _instrument(name) for name in ("tuning", "cascade", "hand", "plane")}
 message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
 
 
@@ -38,8 +41,8 @@ def staged(name: str, panels: Sequence[str], figures: Sequence[str], view: str) 
     message(key=f"stage_{name}", data=pack(told, {}))
 
 
-def show(component: Callable, key: str, data: bytes, take: Callable[[Mapping], None]) -> int:
-    """The instrument, and the release it answers next.
+def show(name: str, key: str, data: bytes, take: Callable[[Mapping], None]) -> int:
+    """The instrument of that name, and the release it answers next.
 
     take: does what a release asks for. It hears of it in a callback, or, where no callback heard it, here, and the
     script runs again: so it is with the first thing a page does after its server was started anew, when the new
@@ -48,10 +51,35 @@ def show(component: Callable, key: str, data: bytes, take: Callable[[Mapping], N
 
     def heard(release: Mapping) -> None:
         state.remember(f"{key}_answers", int(release["n"]))
-        take(release)
+        if "link" in release:
+            state.remember(f"{key}_place", place_of(release["link"]))
+        else:
+            take(release)
 
-    asked = component(key=key, data=data, on_release_change=lambda: heard(state.widget(key)["release"]))
+    asked = _instruments[name](key=key, data=data, on_release_change=lambda: heard(state.widget(key)["release"]))
     if asked.release and int(asked.release["n"]) != state.memory(f"{key}_answers", int):
         heard(asked.release)
         st.rerun()
+    _lecture(name, key)
     return state.memory(f"{key}_answers", int)
+
+
+def _lecture(name: str, key: str) -> None:
+    """What the lecture view is told: that a link asks for it, and its own link where it asked for that."""
+    if place := state.asked_lecture():
+        message(key=f"{key}_lecture", data=pack({"kind": "lecture", "to": name} | place_of(place), {}))
+    if place := state.memory(f"{key}_place", dict):
+        link = state.address(**place, lecture="1")
+        header = {"kind": "link", "to": name, "link": link, "qr": picture_of(qr_svg(link))}
+        message(key=f"{key}_link", data=pack(header, {}))
+
+
+def place_of(given: Mapping) -> dict[str, str]:
+    """View and panel of an instrument as a browser or a link names them; what is no short word is left out."""
+    found = {name: str(given.get(name, "")) for name in ("view", "panel")}
+    return {name: word for name, word in found.items() if WORD.fullmatch(word)}
+
+
+def picture_of(svg: str) -> str:
+    """An SVG as the address of an image."""
+    return f"data:image/svg+xml;base64,{b64encode(svg.encode()).decode()}" if svg else ""

@@ -13,8 +13,8 @@ from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
 from pages.common.shell import header
 from simc_core import Result
-from simc_core.many.report import report, summary, worth
-from simc_core.many.results_csv import SOUND, as_csv, cells
+from simc_core.many.report import summary, worth
+from simc_core.many.results_csv import SOUND, cells
 from simc_core.notation import latex, number
 
 EVERY = 0.5  # seconds between two looks at the progress
@@ -58,6 +58,7 @@ def _going(work: Work) -> None:
         st.rerun()
     done, all_ = len(job.results), len(job.rows)
     waiting = "Waiting for another list to end" if job.state == "waiting" else f"{done} of {all_} loops"
+    waiting = "Writing the report" if done == all_ else waiting
     st.progress(done / all_, waiting)
     st.button("Stop", key="loops_stop", on_click=job.stop)
 
@@ -74,8 +75,8 @@ def browse(work: Work) -> None:
         there = [key for key in SHOWN if key == "all" or any(_group(line) == key for line in lines)]
         shown = st.selectbox("Show", there, format_func=SHOWN.get, key="loops_show", width=220)
         wanted = st.text_input("Tag contains", key="loops_tag", max_chars=40, width=180)
-        if not work.job.going:
-            table, html = _files(work)
+        if work.job.files:
+            table, html = work.job.files
             st.download_button("Results", table, "results.csv", "text/csv")
             st.download_button("Report", html, "report.html", "text/html")
     found = [
@@ -102,14 +103,6 @@ def browse(work: Work) -> None:
         _sheet(*found[selected[0]])
     else:
         st.caption("Select a row to see all of a loop and to go on with it.")
-
-
-def _files(work: Work) -> tuple[str, str]:
-    """results.csv and report.html of a job that has ended, made once."""
-    if work.files is None:
-        results = work.job.results if work.job else []
-        work.files = as_csv(results), report(map(cells, results), f"Many loops: {work.name}")
-    return work.files
 
 
 def _group(line: dict[str, str]) -> str:

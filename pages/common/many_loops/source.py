@@ -20,12 +20,11 @@ WORK, REFUSED, TURN = "many", "many_refused", "many_turn"
 
 @dataclass(slots=True)
 class Work:
-    """A list that was read, the job on it once that has begun, and the files that come of it once it has ended."""
+    """A list that was read, and the job on it once that has begun."""
 
     name: str
     loops: LoopList
     job: Job | None = None
-    files: tuple[str, str] | None = None
 
 
 def choose() -> Work | None:
@@ -96,4 +95,4 @@ def _take_example() -> None:
 
 def begin(work: Work) -> None:
     """Start the job."""
-    work.job, work.files = Job(work.loops.rows), None
+    work.job = Job(work.loops.rows, work.name)

@@ -91,8 +91,12 @@ def ask(design: Design) -> None:
             kwargs=SG12 | {"compared_plant": design.compared.plant or "lag"},
         )
     if design.compared.plant != PRESENT:
-        plant = USUAL[design.compared.plant].plant
-        st.markdown(f"Compared on $G(s) = {latex(plant)}$, not on the plant of this design.")
+        usual = USUAL[design.compared.plant]
+        printed = " and ".join(f"${latex(each)}$" for each in usual.printed)
+        st.markdown(
+            f"Compared on $G(s) = {latex(usual.plant)}$, not on the plant of this design."
+            + (f" Settings printed in [SK98]: {printed}." if printed else "")
+        )
 
 
 def open_asked(view: str) -> None:

@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from pages.common.session.sheet import one_of
-from simc_core import RULES, Plant, checks
+from simc_core import RULES, IController, Plant, SeriesPid, checks
+from simc_core.controllers.forms import Controller
 from simc_core.optimal.criterion import CRITERIA
 
 KINDS = ("PI", "PID", "both")
@@ -13,20 +14,32 @@ LOWEST_MS, HIGHEST_MS = 1.1, 5.0
 
 @dataclass(frozen=True, slots=True)
 class Usual:
-    """A plant that rules are compared on in the literature. name: what it is."""
+    """A plant that rules are compared on in the literature. name: what it is.   printed: settings in [SK98]."""
 
     plant: Plant
     name: str
+    printed: tuple[Controller, ...] = ()
 
 
 USUAL = {
     "balanced": Usual(Plant(1, 1, (1,)), "lag and dead time alike [SG12]"),
     "lag": Usual(Plant(1, 1, (8,)), "lag dominant [SG12]"),
     "slow": Usual(Plant(1, 1, (20,)), "slow lag"),
-    "integrating": Usual(Plant(1, 1, integrators=1), "integrating [SG12]"),
+    "integrating": Usual(
+        Plant(1, 1, integrators=1),
+        "integrating [SG12]; [SK98] examples 3, 8",
+        (SeriesPid(0.5, 8), SeriesPid(1, 2, 0.5)),
+    ),
     "four": Usual(Plant(1, 0, (1, 1, 1, 1)), "four lags"),
     "two": Usual(Plant(1, 1, (6, 2)), "two lags"),
-    "delay": Usual(Plant(1, 1), "pure dead time [SG12]"),
+    "delay": Usual(Plant(1, 1), "pure dead time [SG12]; [SK98] example 7", (IController(0.5), SeriesPid(0.25, 0.5))),
+    "SK98-4": Usual(Plant(1, 1, integrators=2), "double integrating; [SK98] example 4", (SeriesPid(0.0625, 8, 8),)),
+    "SK98-5a": Usual(Plant(1, 1, (100,)), "slow; [SK98] example 5, tau 100", (SeriesPid(50, 100), SeriesPid(50, 8))),
+    "SK98-5b": Usual(Plant(1, 1, (10,)), "[SK98] example 5, tau 10"),
+    "SK98-5c": Usual(Plant(1, 1, (2,)), "fast; [SK98] example 5, tau 2"),
+    "SK98-6a": Usual(Plant(1, 1, (20, 5)), "[SK98] example 6, lags 20 and 5"),
+    "SK98-6b": Usual(Plant(1, 1, (3, 3)), "[SK98] example 6, lags 3 and 3"),
+    "SK98-9": Usual(Plant(-4, 1, (-4,)), "unstable; [SK98] example 9, a theta 0.25", (SeriesPid(0.5, 20),)),
 }
 
 

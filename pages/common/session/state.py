@@ -39,8 +39,11 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
     beside: parameters that this page has beside those of the design, see `place`; on other pages they are unknown.
     """
     given = st.query_params.to_dict()
-    if asked := given.pop("view", ""):
-        st.session_state["asked_view"] = asked
+    view, panel, lecture = (given.pop(name, "") for name in ("view", "panel", "lecture"))
+    if view:
+        st.session_state["asked_view"] = view
+    if lecture:
+        st.session_state["asked_lecture"] = {"view": view, "panel": panel}
     if beside != st.session_state.get("beside", ()):  # another page
         st.session_state["beside"] = beside
         st.session_state["place"], st.session_state["stands_for"] = {}, None
@@ -302,6 +305,11 @@ def asked_view() -> str:
     return st.session_state.pop("asked_view", "")
 
 
+def asked_lecture() -> dict[str, str]:
+    """View and panel of the lecture that a link asked for, told once; empty for none."""
+    return st.session_state.pop("asked_lecture", {})
+
+
 def ignored() -> list[Ignored]:
     """What the last address held that could not be used."""
     return st.session_state.get("ignored", [])
@@ -312,11 +320,12 @@ def dismiss_ignored() -> None:
     st.session_state["ignored"] = []
 
 
-def address() -> str:
-    """The address of this page with the design in it."""
+def address(**more: str) -> str:
+    """The address of this page with the design in it.   more: what else it names, such as a view."""
     base = (st.context.url or "").split("?")[0]
     own = [] if _is_told_by_place() else [links.query(design_now())]
-    return f"{base}?{'&'.join([*own, *([urlencode(place())] if place() else [])])}"
+    beside = urlencode(place() | more)
+    return f"{base}?{'&'.join([*own, *([beside] if beside else [])])}"
 
 
 def parameters() -> dict[str, str]:

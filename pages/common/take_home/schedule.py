@@ -142,4 +142,6 @@ def _files(made: GainSchedule, design: Design) -> None:
     language = LANGUAGES[chosen]
     name = f"schedule_{language.file}"
     st.download_button(f"Download {name}", text, name, "text/plain", key="schedule_file")
+    if not language.compiled:
+        st.warning(f"Not compiled: no tool for {language.title} was at hand. Check it in yours before use.")
     st.code(text, language=language.colours, height=360)

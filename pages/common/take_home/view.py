@@ -20,7 +20,7 @@ from pages.common.take_home.typed import as_text, assumed, read_from, rows, type
 from simc_core import BOXES, Typed
 from simc_core.errors import BoxError, SimcError
 from simc_core.figures import input_figure, output_figure
-from simc_core.implementation.boxes.box import STRUCTURE
+from simc_core.implementation.boxes.box import PV_FILTER, STRUCTURE
 from simc_core.notation import number
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import TimeResponse
@@ -141,14 +141,14 @@ def in_the_box_now(design: Design) -> None:
         st.caption("Type what the box shows; it becomes *my settings* on the tuning page.")
         values: dict[str, float | None] = state.memory(f"box_{box.key}", dict)
         places = st.columns(min(len(box.fields), 3), gap="small")
-        for i, each in enumerate(box.fields):
+        for i, (name, unit) in enumerate([*((each.name, each.unit) for each in box.fields), (PV_FILTER, "s")]):
             number_field(
-                each.name,
-                values.get(each.name),
+                name,
+                values.get(name),
                 lambda value: None,
-                lambda value, name=each.name: values.__setitem__(name, value),
+                lambda value, name=name: values.__setitem__(name, value),
                 f"box_{box.key}_{i}",
-                unit=each.unit.replace("PV", design.sheet.PV_unit or "PV"),
+                unit=unit.replace("PV", design.sheet.PV_unit or "PV"),
                 optional=True,
                 place=places[i % len(places)],
             )

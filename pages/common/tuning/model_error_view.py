@@ -5,6 +5,7 @@ import math
 import numpy as np
 import streamlit as st
 
+from pages.common.parts.in_sight import in_sight
 from pages.common.parts.panel import show
 from pages.common.parts.symbols import symbols
 from pages.common.parts.units import time_text
@@ -52,12 +53,12 @@ def _changed(study: Study, excitation: Excitation) -> None:
     with st.spinner("Trying changed plants"):
         found = robustness(study.loop, percent / 100)
     st.markdown(summary(study, found, percent))
-    with st.spinner("Simulating changed plants"):
-        begins, t_end = times(study.loop, excitation.scenario())
-        nominal = simulate(study.loop, excitation.scenario(disturbance_time=begins, t_end=t_end))
-        asked = excitation.scenario(disturbance_time=begins, t_end=t_end, t=np.linspace(0.0, t_end, POINTS))
-        family = [simulate(case.loop, asked) for case in (*found.corners, *found.samples)]
-        worst = simulate(found.worst.loop, asked)
+    begins, t_end = times(study.loop, excitation.scenario())
+    nominal = simulate(study.loop, excitation.scenario(disturbance_time=begins, t_end=t_end))
+    asked = excitation.scenario(disturbance_time=begins, t_end=t_end, t=np.linspace(0.0, t_end, POINTS))
+    cases = (*found.corners, *found.samples)
+    family = [simulate(case.loop, asked) for case in in_sight(cases, "Simulating changed plants")]
+    worst = simulate(found.worst.loop, asked)
     omega = omega_grid([study.loop.L])
     left, right = st.columns(2, gap="small")
     with left:

@@ -7,10 +7,15 @@ neighbours are correlated by r [NW87 with the correlation of a first-order proce
 import numpy as np
 from scipy.signal import lfilter
 
-from simc_core.identification.estimator.fit import Fit
+from simc_core.identification.estimator.fit import FEW, Fit
 from simc_core.identification.estimator.held_input import Array
+from simc_core.identification.estimator.problem import Problem
 from simc_core.identification.judgement.noise import Noise
 
+NEARLY_EQUAL = 0.35  # half the logarithm of the ratio of two lags
+UNEQUAL = 0.8  # the same, from where they are surely told apart
+TWICE = 4.0  # the rise at two standard deviations
+APART = np.geomspace(0.05, 5.0, 24)  # by how much more it is tried
 WIDE = 2.0  # standard deviation of ln lag before the record is looked at
 
 
@@ -26,7 +31,10 @@ def covariance(fit: Fit, noise: Noise, floor: float) -> Array:
         Standard deviation below which the noise is not believed.
     """
     freedom = degrees_of_freedom(fit, noise)
-    return _spread(_bounded(fit, noise, floor), fit.problem.parts, noise, floor) * (freedom + fit.free) / freedom
+    found = _spread(_bounded(fit, noise, floor), fit.problem.parts, noise, floor) * (freedom + fit.free) / freedom
+    _, equal = _parting(fit, noise, floor)
+    found[1:3, 1:3] += equal**2 * np.array([[1.0, -1.0], [-1.0, 1.0]]) if equal else 0.0
+    return found
 
 
 def _bounded(fit: Fit, noise: Noise, floor: float) -> Array:
@@ -38,7 +46,43 @@ def _bounded(fit: Fit, noise: Noise, floor: float) -> Array:
     wide = np.array([fit.problem.high[0], *[1.0 if lag == "zeta" else WIDE for lag in fit.problem.structure.lags]])
     rows = np.zeros((count, fit.free))
     rows[:, :count] = np.diag(max(noise.sigma, floor) / wide)
+    apart, _ = _parting(fit, noise, floor)
+    if np.isfinite(apart):
+        row = np.zeros((1, fit.free))
+        row[0, 1:3] = np.array([0.5, -0.5]) * max(noise.sigma, floor) / apart
+        rows = np.concatenate([rows, row])
     return np.concatenate([fit.jacobian, rows])
+
+
+def _parting(fit: Fit, noise: Noise, floor: float) -> tuple[float, float]:
+    """How much farther two lags may part, and whether they may be equal, in half the logarithm of their ratio.
+
+    About equality that does not show in the jacobian, which is even there: it is looked up in the sum of squares, the
+    sum of the lags held. inf where it need not be, or nothing holds them; 0 where they are not equal.
+    """
+    structure = fit.problem.structure
+    if structure.lags != ("tau1", "tau2"):
+        return np.inf, 0.0
+    x = fit.point.x
+    half = abs(x[1] - x[2]) / 2
+    if half > UNEQUAL:
+        return np.inf, 0.0
+    problem = fit.problem
+    few = [record.reduced(FEW) for record in problem.records]
+    small = Problem(structure, few, problem.degree > 0, problem.start)
+    total = np.exp(x[1]) + np.exp(x[2])
+    kept = int(np.count_nonzero(problem.root_weight))
+    rise = max(noise.sigma, floor) ** 2 * kept / max(noise.effective, 1.0)
+
+    def cost(half: float) -> float:
+        lags = total * np.exp([half, -half]) / (2 * np.cosh(half))
+        return small.at(np.array([x[0], *np.log(lags)])).cost
+
+    least = cost(half)
+    equal = half if cost(0.0) - least < TWICE * rise else 0.0
+    if half > NEARLY_EQUAL:
+        return np.inf, equal
+    return next((apart for apart in APART.tolist() if cost(half + apart) - least > rise), np.inf), equal
 
 
 def _spread(jacobian: Array, parts: list[slice], noise: Noise, floor: float) -> Array:

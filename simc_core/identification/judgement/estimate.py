@@ -48,7 +48,14 @@ class Estimate:
     freedom: float
 
 
-def estimate(structure: Structure, records: list[Record], floor: float, step: float, drift: bool | None) -> Estimate:
+def estimate(
+    structure: Structure,
+    records: list[Record],
+    floor: float,
+    step: float,
+    drift: bool | None,
+    start: bool = True,
+) -> Estimate:
     """The structure with its errors.
 
     Parameters
@@ -61,6 +68,8 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
         Resolution of y, 0 for none.
     drift : bool or None
         Whether there is a drift; None: weighed.
+    start : bool
+        Whether an unsettled start is weighed.
     """
     drifts = [True] if structure.integrating else [drift] if drift is not None else [True, False]
     begun = all(_start_shows(record) for record in records)
@@ -68,7 +77,7 @@ def estimate(structure: Structure, records: list[Record], floor: float, step: fl
     # searched for with drift and without: what drift makes of a poor structure is no place to begin from
     fits = {(one, False): fitted(structure, records, one, False, floor) for one in drifts}
     near = [fit.point.x for fit in fits.values()]
-    if startable:
+    if start and startable:
         for one, alone in [(key[0], fit) for key, fit in fits.items()]:
             fits[one, True] = continued(structure, alone.problem.records, one, True, floor, near)
     return _weighed(fits, floor, step)
@@ -118,10 +127,19 @@ def _plausible(fit: Fit) -> bool:
 
 
 def _values(fit: Fit) -> Array:
-    return np.concatenate([fit.point.x, fit.point.beta[: len(fit.problem.structure.gains)]])
+    found = np.concatenate([fit.point.x, fit.point.beta[: len(fit.problem.structure.gains)]])
+    return found[_order(fit)]
 
 
 def _spread(fit: Fit, noise: Noise, floor: float, step: float) -> Array:
-    count = fit.point.x.size + len(fit.problem.structure.gains)
     whole = covariance(fit, noise, floor) + np.diag(quantised(fit, noise, step))
-    return whole[:count, :count]
+    order = _order(fit)
+    return whole[np.ix_(order, order)]
+
+
+def _order(fit: Fit) -> list[int]:
+    """Places of theta, lags and gains, the larger of two lags first: variants must not differ by their order alone."""
+    order = list(range(fit.point.x.size + len(fit.problem.structure.gains)))
+    if fit.problem.structure.lags == ("tau1", "tau2") and fit.point.x[2] > fit.point.x[1]:
+        order[1], order[2] = 2, 1
+    return order

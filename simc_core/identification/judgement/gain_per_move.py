@@ -16,6 +16,7 @@ from simc_core.identification.moves import Move
 POOR = 0.9  # share below which a fit is no place to begin from
 MAINLY = 0.5  # share of all that OP moves
 AFTER = 5  # samples of a response, without which it shows nothing
+UNLIKE = 0.1  # share of the gain by which moves must differ
 MOST = 12  # moves for which this is asked
 
 
@@ -77,6 +78,20 @@ def gains_per_move(fit: Fit, share: float, moves: tuple[Move, ...], floor: float
         GainOfMove(move.t, move.before, move.after, gain, error)
         for move, gain, error in zip(inside, gains, errors[: len(inside)].tolist(), strict=True)
     )
+
+
+def extremes(moves: tuple[GainOfMove, ...]) -> tuple[GainOfMove, GainOfMove]:
+    """Those of the smallest and of the largest gain."""
+    return min(moves, key=lambda one: abs(one.gain)), max(moves, key=lambda one: abs(one.gain))
+
+
+def differ(moves: tuple[GainOfMove, ...]) -> bool:
+    """Whether two of them are farther apart than their errors, and than a tenth."""
+    if len(moves) < 2:
+        return False
+    low, high = extremes(moves)
+    error = float(np.hypot(low.standard_error, high.standard_error))
+    return abs(high.gain - low.gain) > max(3 * error, UNLIKE * abs(high.gain))
 
 
 def _split(structure: Structure, held: HeldInput, moves: tuple[Move, ...]) -> Structure:

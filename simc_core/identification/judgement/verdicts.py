@@ -5,7 +5,7 @@ import numpy as np
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.estimator.records import Record
 from simc_core.identification.judgement.estimate import Estimate
-from simc_core.identification.judgement.gain_per_move import MOST, GainOfMove
+from simc_core.identification.judgement.gain_per_move import MOST, GainOfMove, differ, extremes
 
 SURE = 8.0  # standard errors of a gain from which a step was large enough
 ELSEWHERE = 5.0  # of the largest sum of residuals; correlated noise alone stays below 4.6
@@ -24,7 +24,7 @@ def verdicts(estimate: Estimate, half_width: float, moves: tuple[GainOfMove, ...
     fit : float
         1 - |residuals|/|PV - mean|.
     """
-    differ = _disagree(moves)
+    differ = disagree(moves)
     found = [*differ, *_poor(fit), *([] if differ else _size(estimate)), *_disturbed(estimate)]
     return (*found, *_settled(estimate), *_dead_time(estimate, half_width), *_lags(estimate), *_along(estimate))
 
@@ -36,7 +36,7 @@ def _poor(fit: float) -> list[str]:
 
 
 def _size(estimate: Estimate) -> list[str]:
-    gain, error = _gain(estimate)
+    gain, error = float(estimate.values[estimate.fit.point.x.size]), estimate.gain_error
     ratio = abs(gain) / error if error > 0 else np.inf
     if ratio >= SURE:
         return []
@@ -62,13 +62,11 @@ def _disturbed(estimate: Estimate) -> list[str]:
     return found
 
 
-def _disagree(moves: tuple[GainOfMove, ...]) -> list[str]:
-    if len(moves) < 2:
+def disagree(moves: tuple[GainOfMove, ...]) -> list[str]:
+    """What to think of moves whose gains differ."""
+    if not differ(moves):
         return []
-    low, high = min(moves, key=lambda one: abs(one.gain)), max(moves, key=lambda one: abs(one.gain))
-    error = float(np.hypot(low.standard_error, high.standard_error))
-    if abs(high.gain - low.gain) <= 3 * error or abs(high.gain - low.gain) <= 0.1 * abs(high.gain):
-        return []
+    low, high = extremes(moves)
     if abs(low.gain) < 0.2 * abs(high.gain):
         return [
             f"PV hardly answers the move of OP from {low.before:g} to {low.after:g} (gain {low.gain:.3g} instead of "
@@ -147,11 +145,6 @@ def _along(estimate: Estimate) -> list[str]:
     if zero:
         found.append(f"{zero} single samples far from their neighbours were left out.")
     return found
-
-
-def _gain(estimate: Estimate) -> tuple[float, float]:
-    i = estimate.fit.point.x.size
-    return float(estimate.values[i]), float(np.sqrt(estimate.spread[i, i]))
 
 
 def _response(record: Record) -> float:

@@ -12,6 +12,7 @@ from simc_core.identification.experiments.known_controller import COMPUTED, op_o
 from simc_core.identification.reading.cleaning import HOUR, first_is_rubbish, in_order, without_repeats
 from simc_core.identification.reading.columns import QUALITY, Column
 from simc_core.identification.reading.historian import by_tags, is_long
+from simc_core.identification.reading.inputs import moved_too
 from simc_core.identification.reading.instants import UNIT_SECONDS
 from simc_core.identification.reading.questions import Question
 from simc_core.identification.reading.roles import ROLES, roles_of
@@ -75,8 +76,9 @@ def understand(
     roles = roles_of(found, candidates, {role: told[role] for role in ROLES if role in told})
     if "OP" in told or "PV" in told:
         roles.questions = [each for each in roles.questions if each.name not in told]
-    questions = (*table.questions, *axis.questions, *roles.questions)
-    understood += roles.said
+    rivals = moved_too(found, candidates, roles.at)
+    questions = (*table.questions, *axis.questions, *roles.questions, *rivals)
+    understood += [*roles.said, *(each.text for each in rivals)]
     names = {role: "" if at is None else found[at].name for role, at in roles.at.items()}
     times = [i for i in axis.columns if i >= 0]
     names["time"] = table.columns[times[0]].name if times and found is table.columns else ""

@@ -9,7 +9,8 @@ it stay bounded where the loop is stable, also with unstable blocks. Controllers
 without dead time has its w eliminated.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -23,7 +24,10 @@ from simc_core.loops.well_posed import require_well_posed
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Network:
-    """Matrices of the module docstring; theta (m,), all > 0."""
+    """Matrices of the module docstring; theta (m,), all > 0.
+
+    blocks: begin and end of blocks of states of which none needs a later block.
+    """
 
     A: np.ndarray
     B: np.ndarray
@@ -35,6 +39,11 @@ class Network:
     Do: np.ndarray
     Fo: np.ndarray
     theta: np.ndarray
+    blocks: tuple[tuple[int, int], ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        ends = [i for i in range(1, len(self.A) + 1) if not self.A[:i, i:].any()]
+        object.__setattr__(self, "blocks", tuple(pairwise([0, *ends])))
 
 
 def network(loops: NestedLoops) -> Network:

@@ -15,7 +15,7 @@ export class Cascade extends Instrument {
     super(root, {
       sliders: ["inner", "outer"].map((name) => ({ name, symbol: name, label: name })),
       views: [["responses", "Responses"]],
-      hint: "Keys: arrows, Home, End move the slider, Tab to the other · space sweep · L or Esc back",
+      hint: "Keys: arrows, Home, End, Tab · space sweep · H hide · R back to begin · L or Esc leave",
     });
     root.classList.add("two");
     this.tables = {};

@@ -28,7 +28,7 @@ def cascade_instrument(cascade: Cascade) -> None:
     name = cascade_table.setup_name(subject, grid)
     setup = held.message("setup", name, lambda: cascade_table.setup(subject, grid))
     with st.container(gap=None):
-        answers = components.show(components.cascade, KEY, setup, _take)
+        answers = components.show("cascade", KEY, setup, _take)
         components.message(
             key=f"{KEY}_exact",
             data=cascade_table.exact(subject, grid, present, answers, state.design_now().sheet),

@@ -17,7 +17,7 @@ export class Hand extends Instrument {
     super(root, {
       sliders: Array.from({ length: KNOBS }, (_, i) => ({ name: i, symbol: "", label: "" })),
       views: [["responses", "Responses"]],
-      hint: "Keys: arrows, Page up and down, Home, End move a knob · L or Esc back",
+      hint: "Keys: arrows, Page up and down, Home, End move a knob · H hide · R return · L or Esc back",
     });
     root.classList.add("hand");
     root.querySelector(".play").hidden = true;

@@ -43,7 +43,7 @@ def hand_instrument(present: Study, behind: list[tuple[str, Study]], settings: b
     held.end = float(grid.t[-1])
     name = table.setup_name(subject, grid, behind)
     message = held.message("hand", name, lambda: table.setup(subject, grid, present, behind, name))
-    answers = components.show(components.hand, key, message, lambda release: _take(release, settings))
+    answers = components.show("hand", key, message, lambda release: _take(release, settings))
     components.message(
         key=f"{key}_exact",
         data=table.exact(subject, grid, held.values, name, answers, design.sheet),

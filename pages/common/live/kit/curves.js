@@ -61,20 +61,30 @@ export function extent(panel, [from, to], always) {
 /** spec: as of a Panel, without x; names: of its last curves. */
 export function timePanel({ names, ...spec }, end, scale) {
   return new Panel(
-    { ...spec, x: { label: LABELS.t, limits: () => [0, end] }, tell: tellNearest("t", names, "time") },
+    {
+      ...spec,
+      names,
+      along: "t",
+      x: { label: LABELS.t, limits: () => [0, end] },
+      tell: tellNearest("t", names, "time"),
+    },
     scale,
   );
 }
 
 /** loops [{name, color, dash, ring}]: L of each, and the colour of the circle that it touches; behind: more styles. */
 export function nyquistPanel({ title, loops, legend, behind = [] }, { omega, circles }, scale) {
-  const tell = (panel, x, y) => {
+  const nearestTo = (panel, x, y) => {
     let best = null;
     for (const [n, { x: re, y: im }] of panel.curves.slice(-loops.length).entries())
       for (let i = 0; i < re.length; i++) {
         const away = Math.hypot(re[i] - x, im[i] - y);
         if (!best || away < best.away) best = { away, i, name: loops[n].name, re: re[i], im: im[i] };
       }
+    return best;
+  };
+  const tell = (panel, x, y) => {
+    const best = nearestTo(panel, x, y);
     if (!best) return "";
     const value = `${text(best.re, 3)} ${best.im < 0 ? "−" : "+"} ${text(Math.abs(best.im), 3)} j`;
     return `ω = ${measured(text(omega[best.i]), "frequency")}   ${best.name} = ${value}`;
@@ -86,13 +96,17 @@ export function nyquistPanel({ title, loops, legend, behind = [] }, { omega, cir
       short: "Nyquist",
       square: true,
       tell,
+      names: loops.map(({ name }) => name),
+      along: "omega",
+      omega,
+      where: (panel, x, y) => omega[nearestTo(panel, x, y)?.i],
       legend: [...legend, { text: `Ms ${circles.map((Ms) => Ms.toFixed(1)).join(", ")}`, color: R, dash: true }],
       x: { label: "Re L", limits: () => [-2.4, 0.9] },
       y: { label: "Im L", limits: () => [-1.75, 0.8] },
       styles: [
-        { color: R, width: 1 },
-        { color: R, width: 1 },
-        ...circles.map(() => ({ color: R, dash: [2, 3], width: 1 })),
+        { color: R, width: 1, aid: true },
+        { color: R, width: 1, aid: true },
+        ...circles.map(() => ({ color: R, dash: [2, 3], width: 1, aid: true })),
         ...loops.map(({ ring, dash }) => ({ color: ring, width: 1.6, dash })),
         ...behind,
         ...loops.map(({ color, dash }) => ({ color, dash, width: 2.2 })),
@@ -123,10 +137,12 @@ export function magnitudePanel({ names, styles, ...spec }, omega, scale) {
   return new Panel(
     {
       ...spec,
+      names,
+      along: "omega",
       tell: tellNearest("ω", names, "frequency"),
       x: { label: LABELS.omega, log: true, limits: () => [omega[0], omega.at(-1)] },
       y: { label: "", log: true, limits: (p) => [0.01, p.curves.some(({ y }) => y.some((v) => v > 3.2)) ? 100 : 4] },
-      styles: [{ color: R, width: 1 }, ...styles],
+      styles: [{ color: R, width: 1, aid: true }, ...styles],
     },
     scale,
   );

@@ -5,10 +5,13 @@
 
 import { LABELS } from "./curves.js";
 import { button } from "./format.js";
+import { Lecture } from "./lecture.js";
+import { cross } from "./overlay.js";
 import { savePng, saveSvg } from "./picture.js";
 import { Slider } from "./slider.js";
 
 const PERIOD = 8000; // ms for tau_c to go up and down once
+const STEP = 500; // ms from one place to the next where the user asked for less motion
 const PATIENCE = 3000; // ms after which an answer that did not come is not waited for any more
 
 export class Instrument {
@@ -29,8 +32,9 @@ export class Instrument {
     );
     find(".views").append(...(views.length > 1 ? this.tabs : []));
     find(".keys").textContent = hint;
-    find(".play").onclick = () => (this.playing ? this.stop(true) : this.play());
-    find(".lecture").onclick = () => this.lecture();
+    this.lecture = new Lecture(this);
+    find(".play").onclick = () => this.sweep();
+    find(".lecture").onclick = () => this.lecture.toggle();
     find(".png").onclick = () => savePng(this);
     find(".svg").onclick = () => saveSvg(this);
     root.addEventListener("keydown", (event) => this.key(event));
@@ -59,7 +63,9 @@ export class Instrument {
 
   moved(slider) {
     this.slider = slider;
+    this.paused = null;
     this.stop();
+    this.lecture.haunt();
     this.frame ??= requestAnimationFrame(() => {
       this.frame = null;
       this.show();
@@ -121,12 +127,14 @@ export class Instrument {
   /** It leaves the page. */
   leave() {
     this.stop();
+    if (this.lecture.open) this.lecture.leave();
     this.around(false);
   }
 
   /** The panels in words, for those who do not see them; only when at rest. */
   describe(now) {
-    const words = this.staged && !this.staged.figures.length ? this.title() : this.words(now);
+    const veiled = this.lecture.hides || (this.staged && !this.staged.figures.length);
+    const words = veiled ? this.title() : this.words(now);
     for (const panel of this.views[this.view].panels)
       panel.plot.setAttribute("aria-label", `${panel.spec.title}. ${words}`);
     this.root.querySelector(".spoken").textContent = words;
@@ -135,7 +143,7 @@ export class Instrument {
   /** Panels anew: another table, theme, or size of type. end: of the time axis; another one ends a zoom there. */
   rebuild(end = this.end) {
     if (!this.furnished) return;
-    const scale = this.root.matches(":popover-open") ? 1.7 : 1;
+    const { scale } = this.lecture;
     const style = getComputedStyle(this.root);
     const color = style.getPropertyValue("--st-text-color").trim() || style.color;
     this.theme = {
@@ -145,22 +153,41 @@ export class Instrument {
       ink: (name) => style.getPropertyValue(name).trim(),
       page: style.getPropertyValue("--st-background-color").trim() || "white",
     };
-    const zooms = Object.fromEntries(
-      Object.values(this.views)
-        .flatMap((v) => v.panels)
-        .map((p) => [p.spec.key, p.zoom]),
-    );
+    const former = Object.fromEntries(this.panels.map((panel) => [panel.spec.key, panel]));
     this.views = this.panelSets(scale);
     for (const [name, { panels }] of Object.entries(this.views)) {
       this.root.querySelector(`.field.${name}`).replaceChildren(...panels.map((panel) => panel.box));
       for (const panel of panels) {
-        panel.zoom = panel.spec.x.label.startsWith("t ") && end !== this.end ? null : (zooms[panel.spec.key] ?? null);
+        const { zoom = null, ghost = null } = former[panel.spec.key] ?? {};
+        panel.zoom = panel.spec.along === "t" && end !== this.end ? null : zoom;
+        panel.ghost = this.lecture.open && ghost?.length === panel.spec.styles.length ? ghost : null;
+        panel.pointed = (axis, value) => this.point(axis, value);
         panel.single.onclick = () => this.alone(panel.spec.key);
         panel.box.classList.toggle("shown", panel.spec.key === this.only);
       }
     }
     this.end = end;
+    this.lecture.veil();
     this.look(this.view);
+    this.lecture.settle();
+  }
+
+  /** All panels of all views. */
+  get panels() {
+    return Object.values(this.views).flatMap(({ panels }) => panels);
+  }
+
+  /** As it was, with something hidden or shown. */
+  redraw() {
+    this.lecture.veil();
+    for (const panel of this.panels) panel.redraw();
+    this.show();
+  }
+
+  /** One crosshair through all panels; value undefined: none. */
+  point(axis, value) {
+    this.pointer = value === undefined ? null : { axis, value };
+    for (const panel of this.views[this.view].panels) cross(panel, axis, value);
   }
 
   fit() {
@@ -205,21 +232,41 @@ export class Instrument {
     });
   }
 
+  /** The sweep begins, or ends where it began; in a lecture it pauses where it is, and goes on from there. */
+  sweep() {
+    if (!this.playing) this.play();
+    else if (this.lecture.open) this.pause();
+    else this.stop(true);
+  }
+
   /** tau_c up and down, from a third to three times where it is; then it goes back, and nothing has changed. */
   play() {
     const slider = this.slider;
     if (slider.fixed) return;
-    const middle = slider.tau_c;
-    const begin = performance.now();
+    this.lecture.haunt();
+    const { middle, gone } = this.paused ?? { middle: slider.tau_c, gone: 0 };
+    const begin = performance.now() - gone;
+    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.putBack = () => slider.place(middle);
     this.root.querySelector(".play").setAttribute("aria-pressed", "true");
     const step = (now) => {
-      const swing = 3 ** Math.sin((2 * Math.PI * (now - begin)) / PERIOD);
-      slider.place(Math.min(slider.high, Math.max(slider.low, middle * swing)));
-      this.show();
+      const since = calm ? Math.ceil((now - begin) / STEP) * STEP : now - begin;
+      this.paused = { middle, gone: since };
+      const swing = 3 ** Math.sin((2 * Math.PI * since) / PERIOD);
+      const tau_c = Math.min(slider.high, Math.max(slider.low, middle * swing));
+      if (tau_c !== slider.tau_c) {
+        slider.place(tau_c);
+        this.show();
+      }
       this.playing = requestAnimationFrame(step);
     };
     this.playing = requestAnimationFrame(step);
+  }
+
+  /** The sweep stays where it is, with exact numbers. */
+  pause() {
+    this.stop();
+    this.release(this.slider);
   }
 
   /** The sweep ends; back: where it began. A hand on the slider takes it from where it is. */
@@ -229,31 +276,18 @@ export class Instrument {
     this.playing = 0;
     this.root.querySelector(".play").setAttribute("aria-pressed", "false");
     if (!back) return;
+    this.paused = null;
     this.putBack();
     this.show();
-  }
-
-  lecture() {
-    const open = this.root.matches(":popover-open");
-    if (open) {
-      this.root.hidePopover();
-      this.root.removeAttribute("popover");
-    } else {
-      this.root.popover = "manual"; // the top layer: above Streamlit's header, and no request for full screen needed
-      this.root.showPopover();
-    }
-    this.root.querySelector(".lecture").setAttribute("aria-pressed", !open);
-    this.rebuild();
-    this.slider.handle.focus();
   }
 
   key(event) {
     if (event.target.matches("input") || event.ctrlKey || event.metaKey || event.altKey) return;
     const panel = this.views[this.view]?.panels.find((each) => each.box.contains(event.target));
     if (this.preset(Number(event.key))) event.preventDefault();
-    else if (event.key === " " && !event.target.matches("button")) this.playing ? this.stop(true) : this.play();
-    else if (event.key === "l" || event.key === "L") this.lecture();
-    else if (event.key === "Escape" && this.root.matches(":popover-open")) this.lecture();
+    else if (event.key === " " && !event.target.matches("button")) this.sweep();
+    else if (event.key === "l" || event.key === "L") this.lecture.toggle();
+    else if (this.lecture.key(event.key)) event.preventDefault();
     else if (event.key === "Escape" && panel?.zoom) panel.reset();
     else return;
     event.preventDefault();

@@ -16,7 +16,7 @@ export function mount(name, make) {
     one.send = (what) => setTriggerValue("release", what);
     one.take(unpack(data));
     const box = letters(name);
-    box.open = (message) => (message.kind === "stage" ? one.stage(message) : one.take(message));
+    box.open = (message) => given(one, message);
     for (const message of box.waiting.splice(0)) box.open(message);
     return () => {
       one.leave();
@@ -25,4 +25,12 @@ export function mount(name, make) {
       if (live.size === 0) box.open = null;
     };
   };
+}
+
+/** What is said of lessons and of the lecture view is the same for all instruments. */
+function given(one, message) {
+  if (message.kind === "link") one.lecture.show(message);
+  else if (message.kind === "lecture") one.lecture.asked(message);
+  else if (message.kind === "stage") one.stage(message);
+  else one.take(message);
 }

@@ -1,13 +1,17 @@
 // One panel: uPlot draws axes, grid, curves and cursor; every curve brings its own x, L(jw) as the rest.
 
 import { button, isDecade, STEPS, text } from "./format.js";
+import { ghosts, seen } from "./overlay.js";
 
 export const ALARM = "--simc-alarm";
 
 export class Panel {
   /**
-   * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)}, styles [{color, dash, width, alpha, fill}],
-   * square: one unit is as long on both axes.   tell(panel, x, y): what to read at the cursor.
+   * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)},
+   * styles [{color, dash, width, alpha, aid, fill}], aid: it only helps the eye;
+   * square: one unit is as long on both axes.
+   * tell(panel, x, y): what to read at the cursor;   along: "t" or "omega", what the curves `names`, the last ones, are
+   * drawn over, or along which they go in the order of `omega`.
    */
   constructor(spec, scale) {
     this.spec = spec;
@@ -16,6 +20,8 @@ export class Panel {
     this.marks = [];
     this.note = "";
     this.zoom = null;
+    this.ghost = null; // the curves as they were before the last movement, in a lecture
+    this.hides = ""; // see overlay.js
     this.box = document.createElement("figure");
     this.box.dataset.panel = spec.key;
     this.box.innerHTML = `<figcaption><b></b><span class="legend"></span><output></output></figcaption>
@@ -61,7 +67,7 @@ export class Panel {
           points: { show: false },
           ...(style.fill && { fill: theme.ink(style.fill) }),
           paths: (u) => {
-            const path = trace(u, this.curves[i], new Path2D(), true);
+            const path = trace(u, seen(this.curves[i], style, this.hides, this.until), new Path2D(), true);
             return { stroke: path, fill: style.fill ? path : null };
           },
         })),
@@ -125,6 +131,7 @@ export class Panel {
       u.ctx.fillStyle = color;
       u.ctx.fillRect(x, y, w, h);
     }
+    ghosts(this, u, trace);
     u.ctx.restore();
   }
 
@@ -135,6 +142,7 @@ export class Panel {
     ctx.save();
     ctx.font = `${11 * ratio}px ${theme.font}`;
     for (const { x, y, color, label, cross, align, below } of this.marks) {
+      if (this.hides && color && !cross) continue;
       const a = u.valToPos(x, "x", true),
         b = u.valToPos(y, "y", true);
       const inside = a >= bbox.left && a <= bbox.left + bbox.width && b >= bbox.top && b <= bbox.top + bbox.height;
@@ -166,7 +174,7 @@ export class Panel {
           : Math.max(b - 5 * ratio, bbox.top + 10 * ratio),
       );
     }
-    if (this.note) {
+    if (this.note && !this.hides) {
       ctx.font = `600 ${13 * ratio}px ${theme.font}`;
       ctx.textAlign = "center";
       const width = ctx.measureText(this.note).width + 16 * ratio;
@@ -197,7 +205,9 @@ export class Panel {
 
   point(u) {
     const { left, top } = u.cursor;
-    this.readout.textContent = left < 0 ? "" : this.spec.tell(this, u.posToVal(left, "x"), u.posToVal(top, "y"));
+    const [x, y] = left < 0 ? [] : [u.posToVal(left, "x"), u.posToVal(top, "y")];
+    this.readout.textContent = left < 0 ? "" : this.spec.tell(this, x, y);
+    this.pointed?.(this.spec.along, left < 0 || !this.spec.along ? undefined : (this.spec.where?.(this, x, y) ?? x));
   }
 }
 

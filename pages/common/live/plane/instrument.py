@@ -60,7 +60,7 @@ def plane_instrument(
         name,
         lambda: table.setup(subject, grid, study_of_settings(first.plant, first.controller), behind, name, more),
     )
-    answers = components.show(components.plane, KEY, message, lambda release: _take(release, ground.mine, picked))
+    answers = components.show("plane", KEY, message, lambda release: _take(release, ground.mine, picked))
     components.message(
         key=f"{KEY}_exact",
         data=table.exact(subject, grid, held.values, name, answers, state.design_now().sheet, "plane"),

@@ -38,7 +38,7 @@ def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     except InvalidParameter as error:
         st.warning(f"Nothing can be dragged here; *Bode of L* and *Compare* show this design. {told(str(error))}.")
         return
-    answers = components.show(components.tuning, KEY, message, _take)
+    answers = components.show("tuning", KEY, message, _take)
     components.message(
         key=f"{KEY}_exact",
         data=table.exact(subject, grid, present, name, answers, design.sheet),

@@ -40,8 +40,8 @@ export function responsePanels(table, scale) {
       ],
       y: { label: LABELS.y, limits: (p) => within(extent(p, window, bounds), table.y_cap) },
       styles: [
-        { color: R, dash: [5, 4], width: 1.5 },
-        { color: D, dash: [2, 3], width: 1.2 },
+        { color: R, dash: [5, 4], width: 1.5, aid: true },
+        { color: D, dash: [2, 3], width: 1.2, aid: true },
         ...pinned(Y, pins),
         { color: Y, width: 2.2 },
       ],

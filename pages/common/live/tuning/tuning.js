@@ -15,7 +15,7 @@ export class Tuning extends Instrument {
         ["responses", "Responses"],
         ["tradeoff", "Trade-off"],
       ],
-      hint: "Keys: arrows, Home, End move τc · 1, 2, … presets · space sweep · L or Esc back",
+      hint: "Keys: arrows, Home, End, presets 1, 2, … · space sweep · H hide · R back to begin · L or Esc leave",
     });
     const wanted = document.createElement("label");
     wanted.title = "Sets tau_c to the smallest with this Ms";

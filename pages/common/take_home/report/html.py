@@ -3,22 +3,20 @@
 from base64 import b64encode
 from collections.abc import Iterable, Sequence
 from html import escape
-from io import BytesIO
 from pathlib import Path
 from textwrap import wrap
 
 import numpy as np
-import segno
 
+from pages.common.parts.qr import qr_svg
 from pages.common.take_home.proof import table
 from pages.common.take_home.report.record import Report, Row
-from pages.common.take_home.report.svg import FAR, HEIGHT, WIDTH, Curve, figure
 from simc_core.figures import palette
+from simc_core.figures.svg import FAR, HEIGHT, WIDTH, Curve, figure
 
 STYLE = (Path(__file__).parent / "report.css").read_text(encoding="utf-8")
 PAPER = "@page { size: A4; margin: 12mm; }\nbody { margin: 0; }\n"
 LINE, CHARACTERS = 14, 105  # px and length, of the texts of a picture
-LONGEST_IN_QR = 1000  # characters; more make a code that a telephone does not read from paper
 
 
 def document(report: Report) -> str:
@@ -136,12 +134,7 @@ def _items(texts: Iterable[str]) -> str:
 
 def _link(link: str) -> str:
     """The address of the design, and as a QR code where that can be read."""
-    code = ""
-    if len(link) <= LONGEST_IN_QR:
-        out = BytesIO()
-        segno.make(link, micro=False, error="l").save(
-            out, kind="svg", xmldecl=False, svgns=True, omitsize=True, border=2
-        )
-        code = f'<div class="qr">{_image(out.getvalue().decode(), "QR code of the address beside it")}</div>'
+    svg = qr_svg(link)
+    code = f'<div class="qr">{_image(svg, "QR code of the address beside it")}</div>' if svg else ""
     said = f"This design, to be opened and changed: <span>{escape(link)}</span>"
     return f"<footer>{code}<p>{said}</p></footer>"

@@ -1,4 +1,4 @@
-"""Curves with axes and units as SVG text: two figures a report, without a browser. Pure: no streamlit."""
+"""Curves with axes and units as SVG text, for reports, without a browser."""
 
 import math
 from collections.abc import Mapping
@@ -33,7 +33,7 @@ def figure(curves: Mapping[str, Curve], x_title: str, y_title: str, key: str, vi
     """
     inside = {name: (x, np.clip(y, -view, view), style) for name, (x, y, style) in curves.items()}
     xs, ys = (np.concatenate([curve[axis] for curve in inside.values()]) for axis in (0, 1))
-    x, y = _Axis(float(xs.min()), float(xs.max()), LEFT, WIDTH - RIGHT), None
+    x = _Axis(float(xs.min()), float(xs.max()), LEFT, WIDTH - RIGHT)
     low, high = float(ys.min()), float(ys.max())
     room = 0.04 * (high - low) or 1.0
     y = _Axis(low - room, high + room, HEIGHT - BOTTOM, TOP)
@@ -44,10 +44,10 @@ def figure(curves: Mapping[str, Curve], x_title: str, y_title: str, key: str, vi
         f'height="{HEIGHT - TOP - BOTTOM}"/></clipPath>',
     ]
     for value in x.ticks():
-        parts.append(_text(x.at(value), HEIGHT - BOTTOM + 13, f"{value:g}", "middle"))
+        parts.append(_text(x.place(value), HEIGHT - BOTTOM + 13, f"{value:g}", "middle"))
     for value in y.ticks():
-        parts.append(_line(LEFT, y.at(value), WIDTH - RIGHT, y.at(value), palette.GRID))
-        parts.append(_text(LEFT - 5, y.at(value) + 3.5, f"{value:g}", "end"))
+        parts.append(_line(LEFT, y.place(value), WIDTH - RIGHT, y.place(value), palette.GRID))
+        parts.append(_text(LEFT - 5, y.place(value) + 3.5, f"{value:g}", "end"))
     parts += [
         _line(LEFT, HEIGHT - BOTTOM, WIDTH - RIGHT, HEIGHT - BOTTOM, palette.NEUTRAL),
         _line(LEFT, TOP, LEFT, HEIGHT - BOTTOM, palette.NEUTRAL),
@@ -56,19 +56,23 @@ def figure(curves: Mapping[str, Curve], x_title: str, y_title: str, key: str, vi
         f'fill="currentColor">{escape(y_title)}</text>',
     ]
     for name, (t, values, style) in reversed(inside.items()):
-        parts.append(_curve(name, x.at(t), y.at(values), style, key))
+        parts.append(_curve(name, x.places(t), y.places(values), style, key))
     return "".join([*parts, *_legend(inside), "</svg>"])
 
 
 class _Axis:
     """From numbers to pixels."""
 
-    def __init__(self, low: float, high: float, start: float, end: float):
+    def __init__(self, low: float, high: float, start: float, end: float) -> None:
         self.low, self.high = low, high if high > low else low + 1.0
         self.start, self.scale = start, (end - start) / (self.high - self.low)
 
-    def at(self, value):
-        """Pixels of a number or an array."""
+    def place(self, value: float) -> float:
+        """Pixel of a number."""
+        return self.start + (value - self.low) * self.scale
+
+    def places(self, value: np.ndarray) -> np.ndarray:
+        """Pixels of an array."""
         return self.start + (value - self.low) * self.scale
 
     def ticks(self) -> list[float]:
