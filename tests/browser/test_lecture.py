@@ -6,7 +6,7 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.tools import frames, idle, picture, wait_until
+from tests.browser.tools import drawn, fits, frames, idle, picture, wait_until
 
 EXAMPLE = "plant=exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))"  # [V06] example 1
 SIZES = ((1920, 1080), (1366, 768), (1280, 720), (1024, 768), (860, 560))
@@ -160,3 +160,37 @@ def test_its_link_opens_the_same_view_and_comes_as_a_code(server, open_page):
     assert re.search(r"[?&]plant=.*&view=responses&panel=nyquist&lecture=1$", link)
     assert code.evaluate("image => image.decode().then(() => image.naturalWidth > 0)")
     assert json.dumps(link).count("127.0.0.1") == 1
+
+
+def test_a_page_without_an_instrument_is_for_the_last_row_too_and_tells_step_by_step(server, open_page):
+    """Figures have 28 px; the half rule comes line by line; H hides curves; Esc leaves."""
+    page = open_page(f"{server}/half_rule?{EXAMPLE}&lecture=1")
+    drawn(page)
+    expect(page.get_by_test_id("stSidebar")).to_be_hidden()
+    assert fits(page)
+    sizes = page.locator(".js-plotly-plot:visible text").evaluate_all(
+        "texts => texts.filter(t => t.textContent).map(t => parseFloat(getComputedStyle(t).fontSize))"
+    )
+    assert min(sizes) >= 28
+    steps = page.locator(".st-key-story [data-testid=stMarkdown]")
+    expect(steps.nth(0)).to_be_visible()
+    expect(steps.nth(1)).to_be_hidden()
+    page.keyboard.press("ArrowRight")
+    expect(steps.nth(1)).to_be_visible()
+    expect(steps.nth(2)).to_be_hidden()
+    curves = page.locator(".scatterlayer").first
+    page.keyboard.press("h")
+    expect(curves).to_be_hidden()
+    page.keyboard.press("h")
+    expect(curves).to_be_visible()
+    picture(page, "lecture-half-rule")
+    page.keyboard.press("Escape")
+    expect(page.get_by_test_id("stSidebar")).to_be_visible()
+    expect(steps.last).to_be_visible()
+
+
+def test_a_link_shows_one_figure_of_a_page_alone(server, open_page):
+    page = open_page(f"{server}/plant?{EXAMPLE}&panel=plant_bode&lecture=1")
+    drawn(page)
+    expect(page.locator(".js-plotly-plot:visible")).to_have_count(1)
+    expect(page.get_by_label("Transfer function", exact=True)).to_be_hidden()

@@ -8,6 +8,7 @@ import { nearest, round, text } from "../../pages/common/live/kit/format.js";
 import { crowded, typeFor } from "../../pages/common/live/kit/lecture.js";
 import { seen } from "../../pages/common/live/kit/overlay.js";
 import { logTicks, square } from "../../pages/common/live/kit/panel.js";
+import { stretched } from "../../pages/common/live/kit/pinch.js";
 import { between, mix, sensitivities, stencil, unpack } from "../../pages/common/live/kit/table.js";
 
 const cases = JSON.parse(readFileSync(process.env.SIMC_CASES, "utf-8"));
@@ -90,4 +91,17 @@ test("the future of a curve is what lies beyond the instant; an aid stays", () =
   assert.deepEqual(seen(curve, {}, "future", 9), curve);
   assert.deepEqual(seen(curve, {}, "", 1), curve);
   assert.deepEqual(seen(curve, { aid: true }, "curves", 1), curve);
+});
+
+test("what lay under two fingers stays under them, on a logarithmic axis too", () => {
+  for (const [limits, log] of [
+    [[0, 160], false],
+    [[0.01, 100], true],
+  ]) {
+    const value = ([low, high], share) => (log ? low * (high / low) ** share : low + (high - low) * share);
+    const found = stretched(limits, log, [0.4, 0.6], [0.2, 0.9]);
+    close(value(found, 0.2), value(limits, 0.4), 1e-9, "the first finger");
+    close(value(found, 0.9), value(limits, 0.6), 1e-9, "the second one");
+    assert.deepEqual(stretched(limits, log, [0.5, 0.51], [0.4, 0.6]), limits);
+  }
 });

@@ -317,3 +317,12 @@ def test_pinned_tunings_of_before_are_read():
     design, ignored = links.decode({"pins": "1~0~~1~0~2003~!2~0~5~1~0.1~2003"})
     assert not ignored
     assert design.pins == (Tuning(), Tuning(order=2, tau_c=5.0, filter=0.1))
+
+
+@pytest.mark.parametrize("name", ["utm_source", "UTM_Campaign", "fbclid", "gclid", "msclkid", "mc_eid", "_ga"])
+def test_what_follows_readers_is_dropped_and_nothing_is_said(name):
+    assert links.without_trackers({"tau_c": "3", name: "x"}) == {"tau_c": "3"}
+
+
+def test_no_field_of_the_design_is_taken_for_what_follows_readers():
+    assert links.without_trackers(dict.fromkeys(links.ORDER, "")) == dict.fromkeys(links.ORDER, "")

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import streamlit as st
 
 from pages.common.parts.figure_words import in_words
+from pages.common.parts.large import large
 from pages.common.parts.ready_figure import ReadyFigure
 from pages.common.parts.units import axes_named
 from pages.common.session import state
@@ -43,10 +44,12 @@ def show(figure: Figure, key: str, alt: str, picked: Callable[[str], None] | Non
     name = f"figure_{key}"
     pick = {"on_select": lambda: picked(name), "selection_mode": "points"} if picked else {}
     named = axes_named(figure, state.design_now().sheet)
+    if state.lecturing():
+        named = large(named)
     st.plotly_chart(ReadyFigure(named), key=name, config=config(key), alt=in_words(alt, named), **pick)
 
 
 def _style(keys: list[str], chosen: int) -> str:
     """Two by two on a wide screen; on a narrow one the panel chosen alone, and the choice in sight."""
     hidden = ", ".join(f".st-key-panel_{key}" for i, key in enumerate(keys) if i != chosen)
-    return f"<style>@media (max-width: 640px) {{{hidden} {{display: none}}}}</style>"
+    return f"<style>@container page (max-width: 640px) {{{hidden} {{display: none}}}}</style>"

@@ -43,6 +43,8 @@ from simc_core.notation import plain
 from simc_core.plants.step_facts import SettlingFacts, SlopeFacts, StepFacts
 
 LOST_PLUS = re.compile(r"((?<![A-Za-z])[sp](?:(?:\^|\*\*)\d+)?) (?=[\d.])")
+# What course systems, mails and shops hang on every link to follow its reader: none of our business.
+TRACKER = re.compile(r"(utm|mtm|pk)_\w+|(fb|g|dc|y|tw)clid|msclkid|[gw]braid|igshid|mc_[ce]id|_g[al]", re.IGNORECASE)
 LONGEST_VALUE = 2000  # characters of one parameter; a plant of 40 poles needs fewer
 TUNING_FIELDS = tuple(name for name, (record, _) in PLACES.items() if record == "tuning")
 SETTINGS = ("own", "now")
@@ -107,6 +109,11 @@ def decode(parameters: Mapping[str, str]) -> tuple[Design, list[Ignored]]:
 
 def _turn(name: str) -> int:
     return FIRST_READ.index(name) if name in FIRST_READ else len(FIRST_READ)
+
+
+def without_trackers(parameters: Mapping[str, str]) -> dict[str, str]:
+    """The parameters but for those that follow readers."""
+    return {name: value for name, value in parameters.items() if not TRACKER.fullmatch(name)}
 
 
 def number_text(value: float | None) -> str:

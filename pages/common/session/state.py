@@ -38,12 +38,12 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
 
     beside: parameters that this page has beside those of the design, see `place`; on other pages they are unknown.
     """
-    given = st.query_params.to_dict()
+    given = links.without_trackers(st.query_params.to_dict())
     view, panel, lecture = (given.pop(name, "") for name in ("view", "panel", "lecture"))
     if view:
         st.session_state["asked_view"] = view
     if lecture:
-        st.session_state["asked_lecture"] = {"view": view, "panel": panel}
+        st.session_state["asked_lecture"] = {"view": view, "panel": panel, "on": "yes"}
     if beside != st.session_state.get("beside", ()):  # another page
         st.session_state["beside"] = beside
         st.session_state["place"], st.session_state["stands_for"] = {}, None
@@ -305,9 +305,29 @@ def asked_view() -> str:
     return st.session_state.pop("asked_view", "")
 
 
-def asked_lecture() -> dict[str, str]:
-    """View and panel of the lecture that a link asked for, told once; empty for none."""
+def asked_lecture(leave: Callable[[str], bool] = lambda view: False) -> dict[str, str]:
+    """View and panel of the lecture that a link asked for, told once; empty for none.
+
+    leave: whether a lecture of this view is for somebody else, who asks later.
+    """
+    if leave(st.session_state.get("asked_lecture", {}).get("view", "")):
+        return {}
     return st.session_state.pop("asked_lecture", {})
+
+
+def lecturing() -> dict[str, str]:
+    """The lecture view of a page without an instrument: which page, view and panel; empty where there is none."""
+    return lasting("lecture_on", dict)
+
+
+def lecture_is(on: dict[str, str]) -> None:
+    """Begin or, with nothing, end it."""
+    make_last("lecture_on", on)
+
+
+def ask_lecture() -> None:
+    """As a link that says lecture=1."""
+    st.session_state["asked_lecture"] = {"view": "", "panel": "", "on": "yes"}
 
 
 def ignored() -> list[Ignored]:

@@ -10,7 +10,9 @@ from pages.common.parts.structures import told_of
 from pages.common.parts.units import time_text
 from pages.common.session import project, state
 from pages.common.session.design import Design
+from pages.common.shell.lecture import lecture, offer
 from pages.common.shell.loops_menu import loops_menu
+from pages.common.shell.paper import paper
 from pages.common.shell.sheet_form import sheet_form
 from pages.common.shell.styles import styles
 from simc_core.notation import latex
@@ -24,6 +26,10 @@ GROUPS = {
     "Learn": {"lessons": "Lessons", "accuracy": "Accuracy", "sources": "Sources"},
 }
 TITLES = {name: title for group in GROUPS.values() for name, title in group.items()}
+EMBEDDED = (  # the line begins beside the button that opens the sidebar
+    "<style>[data-testid=stMainBlockContainer] { padding: 0.5rem 1rem } [data-testid=stHeader] { background: none }"
+    ".st-key-line { padding-left: 2.5rem }</style>"
+)
 CHAIN = ("plant", "half_rule", "tuning", "cascade")
 NO_LOOP = ("lessons", "sources")  # pages that are about no loop of one's own
 BESIDE = {"lessons": ("lesson", "step"), "sources": ("source",)}  # parameters of a page beside those of the design
@@ -39,11 +45,19 @@ def go(place: str) -> None:
 
 def show(place: str) -> Design:
     """Page settings, the line on top, notices and the sidebar. `place` is a key of TITLES. Returns the design."""
-    st.set_page_config(page_title=f"{TITLES[place]} · SIMC", page_icon="🎚️", layout="wide")
-    st.html(styles())
+    embedded = bool(st.context.is_embedded)  # in a page of a course, which has little room
+    st.set_page_config(
+        page_title=f"{TITLES[place]} · SIMC",
+        page_icon="🎚️",
+        layout="wide",
+        initial_sidebar_state="collapsed" if embedded else "auto",
+    )
+    st.html(styles() + (EMBEDDED if embedded else ""))
     design = state.begin(BESIDE.get(place, ()))
     if place not in NO_LOOP:
         _line(place, design)
+    paper()
+    lecture(place)
     _notices()
     with st.sidebar:
         loops_menu()
@@ -68,7 +82,7 @@ def _line(place: str, design: Design) -> None:
             theta = time_text(design.plant.theta, design.sheet)
             about = told_of(design.origin) if design.origin else None
             st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content", help=about)
-        if place in CHAIN:
+        if place in CHAIN and not st.context.is_embedded:
             chain(place)
 
 
@@ -104,6 +118,7 @@ def _notices() -> None:
 def _take_along(place: str) -> None:
     st.caption("Share link: this page and design")
     copyable(state.address(), "address_text")
+    offer()
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
     st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
     upload = st.file_uploader("Open project", type="json", key="project_file", max_upload_size=1)

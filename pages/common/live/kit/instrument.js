@@ -35,6 +35,8 @@ export class Instrument {
     this.lecture = new Lecture(this);
     find(".play").onclick = () => this.sweep();
     find(".lecture").onclick = () => this.lecture.toggle();
+    find(".more").onclick = ({ target }) =>
+      target.setAttribute("aria-expanded", String(root.classList.toggle("all_numbers")));
     find(".png").onclick = () => savePng(this);
     find(".svg").onclick = () => saveSvg(this);
     root.addEventListener("keydown", (event) => this.key(event));

@@ -1,6 +1,7 @@
 // An instrument on the page. Messages come as elements of their own (message.js), some of them before it is there.
 
 import { letters } from "./letters.js";
+import { onPaper } from "./paper.js";
 import { skipTo } from "./skip.js";
 import { unpack } from "./table.js";
 
@@ -11,7 +12,7 @@ export function mount(name, make) {
     if (!one) {
       one = make(parentElement.querySelector(".live"));
       live.set(parentElement, one);
-      one.unskip = skipTo(one);
+      one.ends = [skipTo(one), onPaper(one)];
     }
     one.send = (what) => setTriggerValue("release", what);
     one.take(unpack(data));
@@ -20,7 +21,7 @@ export function mount(name, make) {
     for (const message of box.waiting.splice(0)) box.open(message);
     return () => {
       one.leave();
-      one.unskip();
+      for (const end of one.ends) end();
       live.delete(parentElement);
       if (live.size === 0) box.open = null;
     };

@@ -2,6 +2,7 @@
 
 import { button, isDecade, STEPS, text } from "./format.js";
 import { ghosts, seen } from "./overlay.js";
+import { pinch } from "./pinch.js";
 
 export const ALARM = "--simc-alarm";
 
@@ -36,6 +37,7 @@ export class Panel {
     this.single = button("⤢", "One panel or all");
     this.single.setAttribute("aria-label", `Show ${spec.title} alone or all`);
     this.box.querySelector("figcaption").append(this.unzoom, this.single);
+    pinch(this);
   }
 
   build(theme) {

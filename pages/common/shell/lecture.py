@@ -1,0 +1,69 @@
+"""The lecture view of a page without an instrument: large type, no navigation, a figure alone, H hides, steps by steps.
+
+The instruments have one of their own, see live/kit/lecture.js.
+"""
+
+from pathlib import Path
+
+import streamlit as st
+
+from pages.common.parts.qr import qr_svg
+from pages.common.session import state
+
+HERE = Path(__file__).parent
+INSTRUMENTS = ("tuning", "cascade", "lessons")
+THEIR_VIEWS = ("", "live", "responses", "tradeoff")
+
+_keys = st.components.v2.component(
+    "simc_lecture_keys", html="<span></span>", js=(HERE / "lecture.js").read_text(encoding="utf-8")
+)
+
+
+def offer() -> None:
+    """The button in the sidebar."""
+    st.button("Lecture view", key="lecture_begin", width="stretch", on_click=_begin, help="Large type; Esc leaves it.")
+
+
+def lecture(place: str) -> None:
+    """The page for the last row, where a link or the button asked for it."""
+    asked = state.asked_lecture(leave=lambda view: place in INSTRUMENTS and view in THEIR_VIEWS)
+    if asked:
+        state.lecture_is({"place": place} | asked)
+    on = state.lecturing()
+    if on and on["place"] != place:
+        state.lecture_is({})  # another page: it ends
+    if on.get("place") != place:
+        return
+    panel = on.get("panel", "")
+    st.html(f"<style>{(HERE / 'lecture.css').read_text(encoding='utf-8')}{_alone(panel)}</style>")
+    with st.container(key="lecture_bar", horizontal=True, vertical_alignment="center", gap="small"):
+        st.button("Leave", key="lecture_leave", on_click=_leave)
+        with st.popover("QR"):
+            link = state.address(
+                **{name: word for name, word in on.items() if name in ("view", "panel") and word}, lecture="1"
+            )
+            st.html(f'<div class="lecture_code">{qr_svg(link)}</div>')
+            st.text(link)
+        st.caption("H hides and shows numbers and curves. Right and left arrow: step by step, where there are steps.")
+        _keys(key="lecture_keys", data={})
+
+
+def _alone(panel: str) -> str:
+    """One figure and what is being worked on, nothing else."""
+    if not (panel and panel.isidentifier()):
+        return ""
+    kept = ", ".join(
+        [f".st-key-figure_{panel}", f":has(.st-key-figure_{panel})", ".st-key-line *", ".st-key-lecture_bar *"]
+    )
+    return (
+        f"[data-testid=stMain] [data-testid=stElementContainer]:not({kept}) {{ display: none }}"
+        "[data-testid=stVerticalBlock], [data-testid=stHorizontalBlock] { gap: 0 }"
+    )
+
+
+def _begin() -> None:
+    state.ask_lecture()
+
+
+def _leave() -> None:
+    state.lecture_is({})
