@@ -131,6 +131,16 @@ def test_a_lesson_of_a_file_opens_and_its_text_is_no_markup():
     assert heading == "# `# <b>x</b> $y$ [a](b)`"
 
 
+def test_a_file_with_the_id_of_another_lesson_has_predictions_of_its_own():
+    app = press(press(run_page("lessons"), "open_V1"), "lesson_next")
+    press(press(app, "choice_3"), "lesson_close")
+    fewer = (DATA / "V1.toml").read_text().replace(', "It falls to a quarter"]', "]").encode()
+    press(upload(app, "mine.toml", fewer), "lesson_next")
+    assert app.button(key="lesson_next").label == "Go on without a prediction"
+    press(app, "lesson_next")
+    assert "Predicted" not in texts(app)
+
+
 def test_a_claim_of_a_file_that_does_not_hold_is_marked():
     wrong = (DATA / "V1.toml").read_bytes().replace(b"IAE_load(PI) = 14.6", b"IAE_load(PI) = 41.6")
     app = upload(run_page("lessons"), "mine.toml", wrong)

@@ -25,27 +25,33 @@ def known() -> Known:
 
 def prediction(lesson: Lesson) -> int:
     """The choice that was made, 0 for none."""
-    return known().get(lesson.id, [0, False])[0]
+    choice = known().get(_key(lesson), [0, False])[0]
+    return choice if choice <= len(lesson.choices) else 0
 
 
 def predict(lesson: Lesson, choice: int) -> None:
     """Make a choice."""
-    known()[lesson.id] = [choice, known().get(lesson.id, [0, False])[1]]
+    known()[_key(lesson)] = [choice, known().get(_key(lesson), [0, False])[1]]
 
 
 def seen(lesson: Lesson) -> None:
     """The answer was seen."""
-    known()[lesson.id] = [prediction(lesson), True]
+    known()[_key(lesson)] = [prediction(lesson), True]
 
 
 def word(lesson: Lesson) -> str:
     """How far it has come, in a word; empty for not begun."""
-    if lesson.id not in known():
+    if _key(lesson) not in known():
         return ""
-    choice, done = known()[lesson.id]
+    choice, done = known()[_key(lesson)]
     if not done:
         return "begun"
     return "✓ predicted" if choice == lesson.right else "done"
+
+
+def _key(lesson: Lesson) -> str:
+    """A lesson of a file may have the id of one of the program's, and is not kept."""
+    return lesson.id if lesson.own else f"file {lesson.id}"
 
 
 def forget() -> None:
