@@ -9,7 +9,8 @@ export const ALARM = "--simc-alarm";
 export class Panel {
   /**
    * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)},
-   * styles [{color, dash, width, alpha, aid, fill}], aid: it only helps the eye;   square: one unit is as long on both axes.
+   * styles [{color, dash, width, alpha, aid, fill}], aid: it only helps the eye;   square: one unit is as long on both
+   * axes.
    * tell(panel, x, y): what to read at the cursor;   along: "t" or "omega", what the curves `names`, the last ones, are
    * drawn over, or along which they go in the order of `omega`.
    */
