@@ -12,8 +12,7 @@ const PATIENCE = 150; // ms after the last key of several
 export class PlanePanel extends Panel {
   /**
    * plane: {x, y: limits, region, limit, contours, best, path: {x, y}, points [{key, name, x, y}], chosen: a
-   * key, name: of the
-   * point that is dragged}.
+   * key, name: of the point that is dragged}.
    * hand: moved(Kc, tau_I), held(yes), released(), picked(key), words().
    */
   constructor(plane, scale, hand) {
