@@ -21,7 +21,7 @@ _keys = st.components.v2.component(
 
 def offer() -> None:
     """The button in the sidebar."""
-    st.button("Lecture view", key="lecture_begin", width="stretch", on_click=_begin, help="Large type; Esc leaves it.")
+    st.button("Large type", key="lecture_begin", width="stretch", on_click=_begin, help="For a lecture; Esc leaves it.")
 
 
 def lecture(place: str) -> None:
