@@ -159,7 +159,7 @@ class Modelica(Variables):
         self.scope = {
             name: float(value) for name, value in re.findall(r"(?:parameter|input) Real (\w+) = (\S+?)[ ;]", head)
         }
-        self.scope |= dict.fromkeys(re.findall(r"discrete Real (\w+)\(", head), 0.0)
+        self.scope |= dict.fromkeys(re.findall(r"discrete (?:output )?Real (\w+)\(", head), 0.0)
 
 
 RUNNERS = {
