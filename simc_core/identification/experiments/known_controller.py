@@ -45,8 +45,8 @@ def op_of_controller(trend: Trend, controller: Controller) -> Trend:
 
     Examples
     --------
-    P control with Kc = 2: a step of SP moves OP by 2, and PV takes it back. In the last quarter of the last second PV is
-    0.4375 on the mean:
+    P control with Kc = 2: a step of SP moves OP by 2, and PV takes it back. In the last quarter of the last second PV
+    is 0.4375 on the mean:
 
     >>> from simc_core import IdealPid, Trend, op_of_controller
     >>> record = Trend([0, 1, 2, 3], [0, 0, 0, 0.5], [0, 0, 0, 0], r=[0, 1, 1, 1])
