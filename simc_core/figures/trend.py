@@ -22,6 +22,7 @@ def trend_figure(
     moves: Sequence[float] = (),
     fitted: tuple[Array, Array, Array] | None = None,
     height: int | None = None,
+    shown: tuple[float, float] | None = None,
 ) -> Figure:
     """PV over OP.
 
@@ -39,39 +40,49 @@ def trend_figure(
         The model's PV and what it leaves, each shape (n,).
     height : int, optional
         In px.
+    shown : (float, float), optional
+        From where to where it is drawn; all of it unless told otherwise.
     """
-    end = float(max(trend.t[-1], trend.instants_of_u[-1]))
+    whole = float(trend.t[0]), float(max(trend.t[-1], trend.instants_of_u[-1]))
+    low, end = shown or whole
+    t_y, y, r = _within(trend.t, low, end, trend.y, trend.y if trend.r is None else trend.r)
+    t_u, u = _within(trend.instants_of_u, low, end, trend.u)
     hover: dict[str, Any] = {"hovertemplate": "%{y:.4g}"}
     traces: list[Trace] = []
     if trend.r is not None:
-        traces.append(palette.line(*held(trend.t, trend.r, end), "SP", palette.R, "dash", 1.4, **hover))
+        traces.append(palette.line(*held(t_y, r, end), "SP", palette.R, "dash", 1.4, **hover))
     behind = 1.0 if fitted is None else 0.5  # the model is to be seen in the noise
-    traces.append(palette.line(*thinned(trend.t, trend.y), "PV", palette.Y, width=1.4, opacity=behind, **hover))
-    traces.append(
-        palette.line(*held(trend.instants_of_u, trend.u, end), "OP", palette.U, width=1.6, yaxis="y2", **hover)
-    )
+    traces.append(palette.line(*thinned(t_y, y), "PV", palette.Y, width=1.4, opacity=behind, **hover))
+    traces.append(palette.line(*held(t_u, u, end), "OP", palette.U, width=1.6, yaxis="y2", **hover))
     domains = {"y": [0.36, 1.0], "y2": [0.0, 0.3]}
     extra = {}
     if fitted is not None:
-        t, y, residuals = fitted
+        t, y, residuals = _within(fitted[0], low, end, *fitted[1:])
         traces.append(palette.line(*thinned(t, y), "model", palette.REDUCED, "dash", 2.0, **hover))
         traces.append(palette.line(*thinned(t, residuals), "residual", palette.NEUTRAL, width=1, yaxis="y3", **hover))
         domains = {"y": [0.5, 1.0], "y2": [0.24, 0.45], "y3": [0.0, 0.19]}
         extra = {"yaxis3": palette.axis("PV − model", domain=domains["y3"], zeroline=True, nticks=4)}
     shaded = [_band(low, high) for low, high in bad[:MOST_BANDS]]
     if part is not None:
-        begin, last = float(trend.t[0]), end
+        begin, last = whole
         shaded += [_band(a, b) for a, b in ((begin, part[0]), (part[1], last)) if b > a]
     lines = [_mark(t) for t in moves]
+    at_most = {"range": list(shown)} if shown else {}
     return palette.figure(
         traces,
-        palette.axis(palette.TIME, hoverformat=".5g", anchor="y3" if fitted is not None else "y2"),
+        palette.axis(palette.TIME, hoverformat=".5g", anchor="y3" if fitted is not None else "y2", **at_most),
         palette.axis("PV  [unit of y]", domain=domains["y"]),
         height,
         yaxis2=palette.axis("OP  [unit of u]", domain=domains["y2"], nticks=5),
         shapes=[*shaded, *lines],
         **extra,
     )
+
+
+def _within(t: Array, low: float, high: float, *values: Array) -> tuple[Array, ...]:
+    """The samples from low to high, and the next one on each side."""
+    first, last = max(int(np.searchsorted(t, low)) - 1, 0), int(np.searchsorted(t, high, "right")) + 1
+    return t[first:last], *[each[first:last] for each in values]
 
 
 def tau_c_figure(

@@ -1,6 +1,7 @@
 """From an example to a model to its tuning, with the same numbers on both pages; by keyboard and on a phone too."""
 
 import re
+from itertools import pairwise
 from urllib.parse import unquote_plus
 
 from playwright.sync_api import expect
@@ -52,6 +53,14 @@ def test_a_day_of_samples_is_drawn_with_few_points(server, open_page):
     drawn = page.locator(".st-key-figure_trend .js-plotly-plot")
     points = drawn.evaluate("figure => Math.max(...figure.calcdata.map(trace => trace.length))")
     assert 1000 < points <= 2000
+    drawn_over(page, 0.5, 0.51)  # zooms: 1 % of 86 400 samples, every one of them
+    page.get_by_role("button", name="Whole record").wait_for()
+    idle(page)
+    x = drawn.evaluate("figure => figure.calcdata.find(each => each[0].trace.name === 'PV').map(point => point.x)")
+    assert 600 < len(x) < 1200
+    assert {round(b - a, 9) for a, b in pairwise(x)} == {1.0}
+    page.get_by_role("button", name="Whole record").click()
+    expect(page.get_by_role("button", name="Whole record")).to_have_count(0)
 
 
 def drawn_over(page, begin: float, end: float):

@@ -2,7 +2,9 @@
 
 import numpy as np
 
+from simc_core import Trend
 from simc_core.figures.thinned import MOST_DRAWN, held, thinned
+from simc_core.figures.trend import trend_figure
 
 
 def test_every_peak_stays_and_points_are_few():
@@ -33,3 +35,13 @@ def test_a_held_signal_has_square_corners():
     t, u = held(np.array([0.0, 1.0, 2.0, 3.0]), np.array([5.0, 5.0, 7.0, 7.0]), 4.0)
     assert t.tolist() == [0, 2, 2, 4]
     assert u.tolist() == [5, 5, 7, 7]
+
+
+def test_a_part_of_a_long_record_is_drawn_with_all_its_samples():
+    t = np.arange(100_000.0)
+    record = Trend(t, np.sin(t), np.floor(t / 10_000))
+    drawn = trend_figure(record, shown=(50_000.0, 50_100.0))
+    (pv,) = (trace for trace in drawn["data"] if trace["name"] == "PV")
+    np.testing.assert_array_equal(pv["x"], np.arange(49_999.0, 50_102.0))
+    np.testing.assert_array_equal(pv["y"], np.sin(pv["x"]))
+    assert drawn["layout"]["xaxis"]["range"] == [50_000.0, 50_100.0]

@@ -20,6 +20,7 @@ from simc_core.notation import number
 HEIGHT, TALL = 360, 460  # px
 BAD_PIECE = "bad_piece"
 TURN = "from_data_drawn"
+SHOWN = "from_data_shown"  # the ends of the record, and of what is drawn of it
 ZOOM, CUT, LEAVE_OUT = DRAGS = ("zooms", "cuts to the range", "leaves the range out")
 
 
@@ -30,23 +31,25 @@ def figure(trend: Trend, design: Design, part: Trend | None, model: Identified |
     fitted = None
     if model is not None and part is not None:  # of several records this one comes first
         fitted = part.t, model.predicted[: part.t.size], model.residuals[: part.t.size]
-    found = trend_figure(
-        trend, cut, chosen.bad, [move.t for move in moves_of(trend)], fitted, HEIGHT if fitted is None else TALL
-    )
+    of, shown = state.lasting(SHOWN, lambda: (None, None))
+    shown = shown if of == ends_of(trend) else None
+    moves = [move.t for move in moves_of(trend)]
+    found = trend_figure(trend, cut, chosen.bad, moves, fitted, HEIGHT if fitted is None else TALL, shown)
     name = "PV, OP" if trend.r is None else "PV, SP, OP"
     told = " and the model with its residuals" if fitted else ""
     alt = f"Record of {name} over {number(trend.span)} {trend.units.get('t', '')}{told}"
     found = in_units(found, trend)
     turn = state.lasting(TURN, lambda: 0)  # a fresh figure after each range that was drawn: nothing stays selected
     key = f"figure_trend_{turn}"
-    pick: dict[str, Any] = {}
     drag = state.widget("drag_does", ZOOM)
-    if drag in (CUT, LEAVE_OUT):
-        found["layout"] |= {"dragmode": "select", "selectdirection": "h"}
-        pick = {"on_select": lambda: _drawn(trend, key, turn, drag), "selection_mode": "box"}
+    found["layout"] |= {"dragmode": "select", "selectdirection": "h"}
+    pick: dict[str, Any] = {"on_select": lambda: _drawn(trend, key, turn, drag), "selection_mode": "box"}
     with st.container(key="figure_trend"):
         st.plotly_chart(found, key=key, config=config("trend"), alt=in_words(alt, found), **pick)
-    st.segmented_control("Dragging on the record", DRAGS, default=ZOOM, required=True, key="drag_does")
+    with st.container(horizontal=True, vertical_alignment="bottom"):
+        st.segmented_control("Dragging on the record", DRAGS, default=ZOOM, required=True, key="drag_does")
+        if shown:
+            st.button("Whole record", key="whole_record", on_click=state.make_last, args=(SHOWN, (None, None)))
 
 
 def in_units(found: Figure, trend: Trend) -> Figure:
@@ -141,7 +144,9 @@ def _drawn(trend: Trend, key: str, turn: int, drag: str) -> None:
     if not low < high:
         return
     state.make_last(TURN, turn + 1)
-    if drag == CUT:
+    if drag == ZOOM:  # drawn anew, with all that the record has there
+        state.make_last(SHOWN, ((first, last), (low, high)))
+    elif drag == CUT:
         state.change(begin=None, end=None)
         state.change(begin=low if low > first else None, end=high if high < last else None)
     elif len(state.value("bad")) < MOST_BAD:
