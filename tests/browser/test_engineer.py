@@ -90,7 +90,10 @@ def test_the_whole_path(server, fresh_server, engineers):
 
     # minutes, °C and %
     page.get_by_test_id("stSidebar").get_by_text("Loop sheet").click()
-    page.get_by_test_id("stSidebar").get_by_role("combobox", name=re.compile("Time unit")).click()
+    unit = page.get_by_test_id("stSidebar").get_by_role("combobox", name=re.compile("Time unit"))
+    unit.scroll_into_view_if_needed()  # a list that has just opened is closed by what scrolls
+    idle(page)
+    unit.click()
     page.get_by_role("option", name="min", exact=True).click()
     idle(page)
     typed(page, page.get_by_label("Unit of PV"), "°C")

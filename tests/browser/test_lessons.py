@@ -62,6 +62,7 @@ def test_handle_and_curve_stand_on_one_screen(width, height, server, open_page):
     page = open_page(f"{server}/lessons?lesson=V1&step=4")
     page.set_viewport_size({"width": width, "height": height})
     panels(page)
+    expect(page.get_by_role("slider")).to_have_count(1)  # of two, one is of the run before
     page.get_by_role("slider").scroll_into_view_if_needed()
     handle, curve = (page.locator(f".live {what}").first.bounding_box() for what in (".handle", "figure:visible"))
     assert curve["y"] + curve["height"] - handle["y"] <= height - 60  # below the line of Streamlit

@@ -68,7 +68,7 @@ def _row(each: AutoTuned, trend: Trend) -> dict[str, Any]:
     unit = plain_unit(trend)
     time = f" [{unit}]" if unit else ""
     controller, setpoint, load = each.controller, each.performance.setpoint, each.performance.disturbance
-    row = {"": _name(each), "Kc": number(controller.Kc), f"τI{time}": number(controller.tau_I)}
+    row = {"for": _name(each), "Kc": number(controller.Kc), f"τI{time}": number(controller.tau_I)}
     if controller.tau_D:
         row |= {f"τD{time}": number(controller.tau_D), f"τF{time}": number(controller.tau_F)}
     return row | {

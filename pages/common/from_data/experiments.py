@@ -127,9 +127,9 @@ def _relay(design: Design) -> None:
     alt = "Relay test: y oscillates, u switches between two levels"
     panel.show(figure, "relay", alt)
     rows = [
-        {"": "Ku", "describing function": number(found.Ku), "exact": number(found.Ku_exact)},
+        {"quantity": "Ku", "describing function": number(found.Ku), "exact": number(found.Ku_exact)},
         {
-            "": "Pu",
+            "quantity": "Pu",
             "describing function": time_text(found.Pu, design.sheet),
             "exact": time_text(found.Pu_exact, design.sheet),
         },
