@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.tools import PATIENCE, WIDTHS, idle, picture, watch
+from tests.browser.tools import PATIENCE, WIDTHS, choose, idle, picture, watch
 
 PLANT = "2,2 e^{-1,5s}/(12,5s+1)"  # °C per %, minutes
 NOW = 0.8, 9.0  # Kc in %/°C and tau_I in min, as they are in the plant
@@ -91,10 +91,7 @@ def test_the_whole_path(server, fresh_server, engineers):
     # minutes, °C and %
     page.get_by_test_id("stSidebar").get_by_text("Loop sheet").click()
     unit = page.get_by_test_id("stSidebar").get_by_role("combobox", name=re.compile("Time unit"))
-    unit.scroll_into_view_if_needed()  # a list that has just opened is closed by what scrolls
-    idle(page)
-    unit.click()
-    page.get_by_role("option", name="min", exact=True).click()
+    choose(page, unit, "min")
     idle(page)
     typed(page, page.get_by_label("Unit of PV"), "°C")
     typed(page, page.get_by_label("Unit of OP"), "%")

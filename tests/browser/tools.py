@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.request import urlopen
 
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, Locator, Page
 
 ROOT = Path(__file__).parents[2]
 PICTURES = Path(__file__).parent / "screenshots"
@@ -103,6 +103,19 @@ def idle(page: Page, settle: float = 0.25) -> None:
 def drawn(page: Page) -> None:
     """Wait until every figure in sight is there and nothing of a former run is left."""
     wait_until(page, lambda: page.evaluate(DRAWN), "the page is drawn")
+
+
+def choose(page: Page, box: Locator, name: str) -> None:
+    """Take an option of a list, which what still scrolls or comes in may have closed again."""
+    box.scroll_into_view_if_needed()
+    idle(page)
+    option = page.get_by_role("option", name=name, exact=True)
+    end = time.monotonic() + PATIENCE
+    while not option.is_visible():
+        assert time.monotonic() < end, f"waited {PATIENCE} s in vain for {name}"
+        box.click()
+        page.wait_for_timeout(500)
+    option.click()
 
 
 def wait_until(page: Page, holds: Callable[[], bool], what: str) -> None:
