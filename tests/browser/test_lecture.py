@@ -123,8 +123,8 @@ def test_a_movement_leaves_a_ghost_and_return_brings_it_back(server, open_page):
     moved = slider.get_attribute("aria-valuenow")
     assert moved != begun
     slider.press("r")
+    expect(slider).to_have_attribute("aria-valuenow", begun)
     at_rest(page)
-    assert slider.get_attribute("aria-valuenow") == begun
     slider.press(" ")
     wait_until(page, lambda: slider.get_attribute("aria-valuenow") != begun, "the sweep has begun")
     slider.press(" ")
