@@ -91,6 +91,7 @@ export class Instrument {
     this.around(!now.exact && this.movesSettings);
     this.root.dataset.drawn = this.slider.tau_c;
     if (now.exact) this.describe(now);
+    this.lecture.settle();
   }
 
   /** A lesson shows some panels, and some figures or none. panels, figures: names; none of panels: all. */

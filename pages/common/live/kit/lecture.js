@@ -164,7 +164,7 @@ export class Lecture {
   /** What was asked for, as soon as there are panels. */
   settle() {
     const { live, wanted } = this;
-    if (!wanted || !live.furnished) return;
+    if (!wanted || !live.furnished || live.slider.tau_c === undefined) return; // what R returns to is not known yet
     this.wanted = null;
     const { view, panel } = wanted;
     if (live.views[view]) live.look(view);
