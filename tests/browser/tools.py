@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.request import urlopen
 
-from playwright.sync_api import Browser, Locator, Page
+from playwright.sync_api import Browser, Locator, Page, TimeoutError
 
 ROOT = Path(__file__).parents[2]
 PICTURES = Path(__file__).parent / "screenshots"
@@ -111,11 +111,14 @@ def choose(page: Page, box: Locator, name: str) -> None:
     idle(page)
     option = page.get_by_role("option", name=name, exact=True)
     end = time.monotonic() + PATIENCE
-    while not option.is_visible():
-        assert time.monotonic() < end, f"waited {PATIENCE} s in vain for {name}"
-        box.click()
-        page.wait_for_timeout(500)
-    option.click()
+    while True:
+        if not option.is_visible():
+            box.click()
+        try:
+            option.click(timeout=3000)
+            return
+        except TimeoutError:
+            assert time.monotonic() < end, f"waited {PATIENCE} s in vain for {name}"
 
 
 def wait_until(page: Page, holds: Callable[[], bool], what: str) -> None:
