@@ -49,7 +49,7 @@ export class Instrument {
   confirm(exact) {
     const expected = this.waiting && performance.now() - this.sent < PATIENCE;
     if (expected && exact.answers !== this.waiting) return false;
-    if (this.playing || this.sliders.some((slider) => slider.dragging)) return false;
+    if (this.playing || this.sliders.some((slider) => slider.moving)) return false;
     this.waiting = 0;
     this.exact = exact;
     return true;

@@ -10,7 +10,7 @@ export class Slider {
    * moved(slider): while it moves.   released(slider): when it comes to rest.
    */
   constructor({ name, symbol, label }, { moved, released }) {
-    Object.assign(this, { name, moved, released, dragging: false, timer: 0 });
+    Object.assign(this, { name, moved, released, dragging: false, held: false, timer: 0 });
     this.row = document.createElement("div");
     this.row.className = "top";
     this.row.innerHTML = `<div class="now"><span class="symbol"></span> = <output class="value">–</output></div>
@@ -108,6 +108,11 @@ export class Slider {
     this.moved(this);
   }
 
+  /** Whether it has been moved and not been released: what Python says meanwhile is of a place that was left. */
+  get moving() {
+    return this.dragging || this.held;
+  }
+
   grab(event) {
     if (this.fixed || event.button > 0) return;
     this.track.setPointerCapture(event.pointerId);
@@ -143,9 +148,13 @@ export class Slider {
     }[event.key];
     if (to === undefined) return;
     event.preventDefault();
+    this.held = true;
     this.move(to);
     clearTimeout(this.timer); // a key held down is one release
-    this.timer = setTimeout(() => this.released(this), 150);
+    this.timer = setTimeout(() => {
+      this.held = false;
+      this.released(this);
+    }, 150);
   }
 }
 

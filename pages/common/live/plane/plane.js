@@ -31,7 +31,7 @@ export class Plane extends Hand {
 
   /** What Python says meanwhile waits until the hand has left the point. */
   hold(yes) {
-    for (const slider of this.used) slider.dragging = yes;
+    for (const slider of this.used) slider.held = yes;
   }
 
   show() {
