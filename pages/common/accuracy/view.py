@@ -5,6 +5,7 @@ from html import escape
 
 import streamlit as st
 
+from pages.common.parts.sources import linked
 from pages.common.parts.symbols import symbols
 from simc_core.published.checks import GROUPS, Check
 
@@ -30,7 +31,8 @@ def summary(checks: list[Check]) -> None:
         if not found.met:
             row = found.reference
             why = found.fault or f"expected {value_text(row.expected)}, found {value_text(found.ours)}"
-            st.error(f"**{row.group}: {row.what}, {row.quantity}** [{row.source.strip('[]')}]: {why}")
+            source = linked(f"[{row.source.strip('[]')}]")
+            st.error(f"**{row.group}: {row.what}, {row.quantity}** {source}: {why}")
 
 
 def summary_html(checks: list[Check]) -> str:
@@ -54,7 +56,7 @@ def groups(checks: list[Check]) -> None:
     for number, group in enumerate(GROUPS):
         found = [each for each in checks if each.reference.group == group]
         met = sum(each.met for each in found)
-        st.markdown(f"**{group}**, {met} of {len(found)}. {WHY[group]}")
+        st.markdown(f"**{group}**, {met} of {len(found)}. {linked(WHY[group])}")
         with st.container(key=f"references_{number}"):
             st.table(table(found))
 

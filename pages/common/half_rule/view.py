@@ -131,8 +131,10 @@ def comparison(study: Study) -> None:
             figure = model_error_figure(compared.omega, compared.error, compared.bound, HEIGHT)
             show(figure, "error", "Relative model error")
             st.caption(
-                "The loop designed on the model $G_r$ is stable around $G$ where "
-                "$|G - G_r|/|G_r| < 1/|T|$ at all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
+                linked(
+                    "The loop designed on the model $G_r$ is stable around $G$ where "
+                    "$|G - G_r|/|G_r| < 1/|T|$ at all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
+                )
             )
     numbers(compared)
 
@@ -152,7 +154,7 @@ def numbers(compared: ModelError) -> None:
         if math.isnan(compared.used)
         else (
             f": at worst $|G - G_r|\\,|T|/|G_r|$ = {number(compared.used, 3)} at $\\omega = "
-            f"{latex_number(compared.omega_used, 3)}${frequency}, limit 1 [RMS86 eq. 10]."
+            f"{latex_number(compared.omega_used, 3)}${frequency}, limit 1 {linked('[RMS86 eq. 10]')}."
         )
     )
     if compared.error[0] >= 1:

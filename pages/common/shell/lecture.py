@@ -12,7 +12,7 @@ from pages.common.session import state
 from pages.common.session.lecture import ask_lecture, asked_lecture, lecture_is, lecturing
 
 HERE = Path(__file__).parent
-INSTRUMENTS = ("tuning", "cascade", "lessons")
+INSTRUMENTS = ("tuning", "cascade")
 THEIR_VIEWS = ("", "live", "responses", "tradeoff")
 
 _keys = st.components.v2.component(
@@ -25,9 +25,13 @@ def offer() -> None:
     st.button("Large type", key="lecture_begin", width="stretch", on_click=_begin, help="For a lecture; Esc leaves it.")
 
 
-def lecture(place: str) -> None:
-    """The page for the last row, where a link or the button asked for it."""
-    asked = asked_lecture(leave=lambda view: place in INSTRUMENTS and view in THEIR_VIEWS)
+def lecture(place: str, instrument: bool | None = None) -> None:
+    """The page for the last row, where a link or the button asked for it.
+
+    instrument: whether there is one, to which its own views are left; None where the place tells.
+    """
+    there = place in INSTRUMENTS if instrument is None else instrument
+    asked = asked_lecture(leave=lambda view: there and view in THEIR_VIEWS)
     if asked:
         lecture_is({"place": place} | asked)
     on = lecturing()
