@@ -80,7 +80,7 @@ def test_newcomers_get_one_of_the_two_and_keep_it(cluster):
 
 
 def test_nginx_lets_go_of_a_silent_connection_before_the_app_closes_it():
-    """Else a request that meets the closing counts as a failure of that process, and its visitors lose their session."""
+    """Else a request that meets the closing counts as a failure there, and visitors lose their session."""
     kept = [
         float(seconds) for seconds in re.findall(r"keepalive_timeout (\S+)s;", (ROOT / "deploy/nginx.conf").read_text())
     ]
