@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from pages.common.session.design import Tuning
+from pages.common.session.tuning import Tuning
 from pages.common.studies.single import study
 from pages.common.tuning.readout import strip_html
 from simc_core import parse_plant

@@ -12,7 +12,8 @@ from pages.common.rules.plane import ground as ground_of
 from pages.common.rules.table import Question, frame, key_of, rows_of, shown, title_of
 from pages.common.session import state
 from pages.common.session.compared import KINDS, OPTIMAL, PRESENT, USUAL
-from pages.common.session.design import Design, Excitation
+from pages.common.session.design import Design
+from pages.common.session.excitation import Excitation
 from pages.common.studies.measures import EXAMPLES, MEANINGS, MEASURES
 from pages.common.studies.single import Study, study_of_settings
 from simc_core.figures import trade_off_figure

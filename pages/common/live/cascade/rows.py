@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from pages.common.session.design import Cascade
+from pages.common.session.cascade import Cascade
 from pages.common.studies.cascade import designed
 from simc_core.cascade.design import CascadeDesign
 from simc_core.errors import SimcError

@@ -10,7 +10,7 @@ from pages.common.live.hand import table
 from pages.common.live.kit.held import Held
 from pages.common.live.tuning.table import grid_around
 from pages.common.session import state
-from pages.common.session.design import Excitation
+from pages.common.session.excitation import Excitation
 from pages.common.studies.single import Study, study_of_settings
 from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError

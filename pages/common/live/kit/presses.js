@@ -2,7 +2,7 @@
 
 const PATIENCE = 150; // ms after the last of them
 
-/** To be called at each key. hold(yes): while they last, an answer to an earlier release must not take the handle back. */
+/** To be called at each key. hold(yes): an answer to an earlier release must not take the handle back meanwhile. */
 export function presses(hold, released) {
   let timer = 0;
   return () => {

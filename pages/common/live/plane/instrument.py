@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pages.common.live.hand import table
 from pages.common.live.hand.turned import Turned, moved, shown
 from pages.common.session import state
-from pages.common.session.design import Excitation
+from pages.common.session.excitation import Excitation
 from pages.common.studies.single import Study
 from simc_core.controllers.forms import IdealPid
 from simc_core.plants.plant import Plant
