@@ -193,10 +193,10 @@ def chosen_of(rows: Sequence[Row], design: Design) -> Row | None:
 
 def which_picture() -> str:
     """One of PICTURES."""
+    state.begin_widget("rules_picture", PICTURES[0])
     return st.segmented_control(
         "Picture",
         PICTURES,
-        default=PICTURES[0],
         required=True,
         key="rules_picture",
         persist_state="session",

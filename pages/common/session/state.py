@@ -261,6 +261,12 @@ def set_widget(key: str, thing: Any) -> None:
             del sent[key]
 
 
+def begin_widget(key: str, thing: Any) -> None:
+    """What the widget of this key holds at first. Streamlit objects to a `default` beside `set_widget`."""
+    if key not in st.session_state:
+        set_widget(key, thing)
+
+
 def run_ended() -> None:
     """The router tells that a run has ended: what it put into widgets was sent, what they report now is new."""
     st.session_state["replaced"] = {}
