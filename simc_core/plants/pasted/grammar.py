@@ -46,6 +46,7 @@ from simc_core.plants.pasted.shapes import (
 )
 from simc_core.plants.pasted.sums_of_delays import advice
 from simc_core.plants.pasted.tokens import Token, bare, superscript_delay, tokens
+from simc_core.wording import said
 
 DEEPEST = 50  # nested brackets
 HIGHEST_POWER = 40
@@ -53,7 +54,7 @@ LARGEST_EXPONENT = 300  # of a number with a decimal exponent
 CLOSING = {"(": ")", "[": "]", "{": "}"}
 EXPONENTIALS = ("exp", "e", "delay")
 ATOMS = ("number", "s", "name", "frac", "sqrt", "pi", "call", "list", *EXPONENTIALS)
-NO_EXPONENT = "the exponent must be a multiple of s, as in e^{-3s} or exp(-3 s)"
+NO_EXPONENT = said("the exponent must be a multiple of s, as in e^{-3s} or exp(-3 s)")
 
 
 class Reader:
@@ -90,7 +91,7 @@ class Reader:
     def plant(self) -> Value:
         value = self.fraction()
         if self.token.kind != "end":
-            raise self.fault(f"a transfer function must end here, found {_named(self.token)}")
+            raise self.fault(said("a transfer function must end here, found {token}", token=_named(self.token)))
         return value
 
     @property
@@ -111,7 +112,7 @@ class Reader:
 
     def fault(self, message: str, at: int | None = None) -> ParseError:
         at = self.token.at if at is None else at
-        return ParseError(f"{message} (position {at + 1})", self.text, at)
+        return ParseError(said("{message} (position {at})", message=message, at=at + 1), self.text, at)
 
     def fraction(self) -> Value:
         value = self.sum()
@@ -135,17 +136,19 @@ class Reader:
         minus = -1 if sign.text == "-" else 1
         if a.theta != b.theta:
             raise self.fault(
-                "terms with different dead times cannot be added to one plant with one dead time: "
+                said("terms with different dead times cannot be added to one plant with one dead time: ")
                 + advice(a, b, minus),
                 sign.at,
             )
         if degree(a) + degree(b) > 4 * checks.MOST_FACTORS:
-            raise self.fault(f"the degree of a polynomial must be <= {checks.MOST_FACTORS}", sign.at)
+            raise self.fault(
+                said("the degree of a polynomial must be <= {most_factors}", most_factors=checks.MOST_FACTORS), sign.at
+            )
         return plus(a, b, minus)
 
     def divided(self, value: Value, divisor: Value, at: int) -> Value:
         if is_zero(divisor):
-            raise self.fault("division by zero", at)
+            raise self.fault(said("division by zero"), at)
         return self.checked(times(value, inverse(divisor)), at)
 
     def product(self) -> Value:
@@ -171,21 +174,26 @@ class Reader:
             if before.kind == "number":
                 both = quoted(f"{before.text} {token.text}")
                 raise self.fault(
-                    f"two numbers stand side by side, '{both}': write them as one without a blank, "
-                    "or put +, - or * between them",
+                    said(
+                        "two numbers stand side by side, '{both}': write them as one without a blank, or put +, - or * "
+                        "between them",
+                        both=both,
+                    ),
                     token.at,
                 )
             # 10s 1 is 10s+1 that lost its plus, as in a link where + was not written %2B
             raise self.fault(
-                f"a sign is missing before this number: write +, - or * before {quoted(token.text)}, "
-                "or ^ if it is a power"
+                said(
+                    "a sign is missing before this number: write +, - or * before {text}, or ^ if it is a power",
+                    text=quoted(token.text),
+                )
             )
         if before.kind == "list" and token.kind not in EXPONENTIALS:
-            raise self.fault("after a list of coefficients write / or *")
+            raise self.fault(said("after a list of coefficients write / or *"))
         if token.kind == "list":
-            raise self.fault("a list of coefficients stands alone: write tf([2], [10 1]), or / or * before it")
+            raise self.fault(said("a list of coefficients stands alone: write tf([2], [10 1]), or / or * before it"))
         if slashed and token.kind not in EXPONENTIALS:
-            raise self.fault("the denominator is unclear: write 1/((s+1)(2s+1)) or (1/(s+1))*(2s+1)")
+            raise self.fault(said("the denominator is unclear: write 1/((s+1)(2s+1)) or (1/(s+1))*(2s+1)"))
 
     def is_power_of_ten(self) -> bool:
         """Whether the present number is 10^3 or 1e3 after another number."""
@@ -202,13 +210,20 @@ class Reader:
         while self.token.kind == "power":
             exponent = self.whole_exponent()
             if abs(exponent) > HIGHEST_POWER:
-                raise self.fault(f"a power must be between -{HIGHEST_POWER} and {HIGHEST_POWER}, found {exponent}", at)
+                raise self.fault(
+                    said(
+                        "a power must be between -{highest_power} and {highest_power}, found {exponent}",
+                        highest_power=HIGHEST_POWER,
+                        exponent=exponent,
+                    ),
+                    at,
+                )
             if exponent < 0 and is_zero(value):
-                raise self.fault("division by zero", at)
+                raise self.fault(said("division by zero"), at)
             base = inverse(value) if exponent < 0 else value
             n = abs(exponent)
             if n * max(len(base.num), len(base.den)) > MOST_PARTS:
-                raise self.fault(f"a product must have at most {MOST_PARTS} factors", at)
+                raise self.fault(said("a product must have at most {most_parts} factors", most_parts=MOST_PARTS), at)
             value = self.checked(Value(base.num * n or (ONE,), base.den * n, base.theta * n, base.at), at)
         return value
 
@@ -221,7 +236,7 @@ class Reader:
         sign = -1 if self.take("-") else 1
         token = self.token
         if token.kind != "number" or not token.text.isascii() or not token.text.isdigit():
-            raise self.fault(f"a power must be a whole number, found {_named(token)}")
+            raise self.fault(said("a power must be a whole number, found {token}", token=_named(token)))
         self.next += 1
         if opened:
             self.close(opened)
@@ -257,8 +272,10 @@ class Reader:
             case "sign" if token.text == "-" and self.token.text != "-":  # 2*-s, e^{-s}*-1
                 return times(MINUS_ONE, self.power())
             case "sign" if token.text in CLOSING.values():
-                raise self.fault(f"'{token.text}' closes a bracket that was not opened", token.at)
-        raise self.fault(f"a number, s, exp or a bracket was expected here; found {_named(token)}", token.at)
+                raise self.fault(said("'{text}' closes a bracket that was not opened", text=token.text), token.at)
+        raise self.fault(
+            said("a number, s, exp or a bracket was expected here; found {token}", token=_named(token)), token.at
+        )
 
     def names_value(self, token: Token) -> Value:
         name = bare(token.text)
@@ -268,34 +285,51 @@ class Reader:
     def number(self, token: Token) -> Fraction:
         digits, _, exponent = token.text.lower().partition("e")
         if exponent and abs(int(exponent[:6])) > LARGEST_EXPONENT:
-            raise self.fault(f"a number must be below 1e{LARGEST_EXPONENT}, found {token.text[:20]}", token.at)
+            raise self.fault(
+                said(
+                    "a number must be below 1e{largest_exponent}, found {text}",
+                    largest_exponent=LARGEST_EXPONENT,
+                    text=token.text[:20],
+                ),
+                token.at,
+            )
         following = self.token
         if following.kind == "number" and following.at == token.at + len(token.text):
             raise self.fault(
-                f"'{quoted(token.text + following.text)}' is not a number: write one decimal point and no other",
+                said(
+                    "'{text}' is not a number: write one decimal point and no other",
+                    text=quoted(token.text + following.text),
+                ),
                 token.at,
             )
         if " " in digits and "+" not in self.text and " " in self.text[token.at : token.at + len(token.text)]:
             # a link whose + was not written %2B has lost all of them: 1 200s may have been 1+200s
             raise self.fault(
-                f"'{quoted(token.text)}' can be read in two ways: write {quoted(digits.replace(' ', ''))} without a "
-                "blank, or put + between",
+                said(
+                    "'{text}' can be read in two ways: write {value} without a blank, or put + between",
+                    text=quoted(token.text),
+                    value=quoted(digits.replace(" ", "")),
+                ),
                 token.at,
             )
         try:
-            return decimal("the number", digits) * Fraction(10) ** int(exponent or 0)
+            return decimal(said("the number"), digits) * Fraction(10) ** int(exponent or 0)
         except InvalidParameter as error:
             raise self.fault(str(error), token.at) from None
 
     def coefficients(self, token: Token) -> Value:
         if re.fullmatch(r"\[\s*[+-]?\d+,\d+\s*\]", token.text):
             raise self.fault(
-                f"'{token.text}' can be read in two ways: write {token.text.replace(',', '.')} for one number, "
-                f"{token.text.replace(',', ' ')} for two coefficients",
+                said(
+                    "'{text}' can be read in two ways: write {value} for one number, {value_2} for two coefficients",
+                    text=token.text,
+                    value=token.text.replace(",", "."),
+                    value_2=token.text.replace(",", " "),
+                ),
                 token.at,
             )
         try:
-            found = read_exact_numbers("the list", token.text)
+            found = read_exact_numbers(said("the list"), token.text)
         except InvalidParameter as error:
             raise self.fault(str(error), token.at) from None
         return self.checked(polynomial(found), token.at)
@@ -304,17 +338,23 @@ class Reader:
         argument = self.atom() if self.token.kind == "number" else self.group()
         value = number_of(argument)
         if value is None or value < 0:
-            raise self.fault("a square root must be of a number >= 0", token.at)
+            raise self.fault(said("a square root must be of a number >= 0"), token.at)
         return constant(Fraction(math.sqrt(value)))
 
     def group(self) -> Value:
         opened = self.take(*CLOSING)
         if not opened:
-            braces = " as in \\frac{2}{10s+1}" if self.last.kind == "frac" else ""
-            raise self.fault(f"an opening bracket is expected here{braces}, found {_named(self.token)}")
+            braces = said(" as in \\frac{2}{10s+1}") if self.last.kind == "frac" else ""
+            raise self.fault(
+                said(
+                    "an opening bracket is expected here{braces}, found {token}",
+                    braces=braces,
+                    token=_named(self.token),
+                )
+            )
         self.depth += 1
         if self.depth > DEEPEST:
-            raise self.fault(f"brackets must not be nested more than {DEEPEST} deep", opened.at)
+            raise self.fault(said("brackets must not be nested more than {deepest} deep", deepest=DEEPEST), opened.at)
         value = self.fraction()
         self.close(opened)
         self.depth -= 1
@@ -323,8 +363,13 @@ class Reader:
     def close(self, opened: Token) -> None:
         if not self.take(CLOSING[opened.text]):
             raise self.fault(
-                f"'{opened.text}' of position {opened.at + 1} must be closed by '{CLOSING[opened.text]}', "
-                f"found {_named(self.token)}"
+                said(
+                    "'{text}' of position {at} must be closed by '{closing}', found {token}",
+                    text=opened.text,
+                    at=opened.at + 1,
+                    closing=CLOSING[opened.text],
+                    token=_named(self.token),
+                )
             )
 
     def exponential(self, token: Token) -> Value:
@@ -358,4 +403,4 @@ class Reader:
 
 
 def _named(token: Token) -> str:
-    return "the end of the text" if token.kind == "end" else f"'{quoted(token.text)}'"
+    return said("the end of the text") if token.kind == "end" else f"'{quoted(token.text)}'"

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 from simc_core.errors import ParseError
 from simc_core.plants.pasted.tokens import Token
+from simc_core.wording import said
 
 SIGNS = ("+", "-", "*", "/", "^", "**")
 
@@ -56,8 +57,14 @@ def check_lost_powers(text: str, row: list[Token]) -> None:
         in_sum = row[after + 1].text in signs or (i > 1 and row[i - 1].text in signs and row[i - 2].text != "(")
         if torn or not in_sum:
             raise ParseError(
-                f"'{token.text}' before s can be read in two ways: did you mean {found[1]} e^(-{time}s)? "
-                f"If it is a coefficient, write it without e (position {token.at + 1})",
+                said(
+                    "'{text}' before s can be read in two ways: did you mean {found} e^(-{time}s)? If it is a "
+                    "coefficient, write it without e (position {at})",
+                    text=token.text,
+                    found=found[1],
+                    time=time,
+                    at=token.at + 1,
+                ),
                 text,
                 token.at,
             )
@@ -71,15 +78,24 @@ def check_lost_tens(text: str, row: list[Token]) -> None:
         tight = ten.text == "10" and after.text == "-" and after.at == ten.at + 2 and last.at == ten.at + 3
         if tight and last.kind == "number":
             raise ParseError(
-                f"'10-{last.text}' after a multiplication can be read in two ways: write 10^-{last.text} if it is a "
-                f"power of ten, or 10 - {last.text} with blanks if it is a difference (position {ten.at + 1})",
+                said(
+                    "'10-{text}' after a multiplication can be read in two ways: write 10^-{text} if it is a power "
+                    "of ten, or 10 - {text} with blanks if it is a difference (position {at})",
+                    text=last.text,
+                    at=ten.at + 1,
+                ),
                 text,
                 ten.at,
             )
         if text[times.at] not in "*." and ten.text[2:].isdigit():
             raise ParseError(
-                f"'{ten.text}' after a multiplication can be read in two ways: write 10^{ten.text[2:]} if it is a "
-                f"power of ten, or * before it if it is not (position {ten.at + 1})",
+                said(
+                    "'{text}' after a multiplication can be read in two ways: write 10^{text_2} if it is a power of "
+                    "ten, or * before it if it is not (position {at})",
+                    text=ten.text,
+                    text_2=ten.text[2:],
+                    at=ten.at + 1,
+                ),
                 text,
                 ten.at,
             )
@@ -97,8 +113,11 @@ def check_raised(text: str, plain: str, row: list[Token]) -> None:
         ):
             at = after.at if after.kind == "s" else token.at
             raise ParseError(
-                "the wide gap at this s can be a power on a line of its own: write s^2 for s squared, and 2 s with one "
-                f"blank (position {at + 1})",
+                said(
+                    "the wide gap at this s can be a power on a line of its own: write s^2 for s squared, and 2 s "
+                    "with one blank (position {at})",
+                    at=at + 1,
+                ),
                 text,
                 at,
             )
@@ -110,8 +129,12 @@ def check_numbered(text: str, plain: str, row: list[Token]) -> None:
     point = first.kind == "number" and first.text[-1] == "." and row[1].kind not in ("s", "end")
     if point and _blank(plain, row[1]) and row[1].text not in SIGNS:
         raise ParseError(
-            f"'{first.text}' can be the number of a list: leave it out, or write {first.text}0 if it is a factor "
-            f"(position {first.at + 1})",
+            said(
+                "'{text}' can be the number of a list: leave it out, or write {text}0 if it is a factor "
+                "(position {at})",
+                text=first.text,
+                at=first.at + 1,
+            ),
             text,
             first.at,
         )
@@ -121,8 +144,12 @@ def check_numbered(text: str, plain: str, row: list[Token]) -> None:
     if before or (behind and row[-5].kind not in ("exp", "e", "frac", "sqrt")):
         number = row[1] if before else last[1]
         raise ParseError(
-            f"'({number.text})' can be the number of an equation: leave it out, or write * beside it if it is a factor "
-            f"(position {number.at})",
+            said(
+                "'({text})' can be the number of an equation: leave it out, or write * beside it if it is a "
+                "factor (position {at})",
+                text=number.text,
+                at=number.at,
+            ),
             text,
             number.at - 1,
         )
@@ -145,7 +172,12 @@ def check_one_variable(text: str, row: list[Token]) -> None:
         first, second, *_ = variables
         at = variables[second].at
         raise ParseError(
-            f"there are two variables, {first} and {second}: write one, or give {second} a value (position {at + 1})",
+            said(
+                "there are two variables, {first} and {second}: write one, or give {second} a value (position {at})",
+                first=first,
+                second=second,
+                at=at + 1,
+            ),
             text,
             at,
         )
