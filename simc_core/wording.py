@@ -65,6 +65,16 @@ class Text(str):
         return _made(self.template, {**self.values, **values}, self.several, self.n, self.context)
 
 
+def renamed(text: str, names: Mapping[str, str]) -> str:
+    """A text in which some things are called otherwise, as a page calls what the core calls "tau1"."""
+    if isinstance(text, Text):
+        called = {place: names[value] for place, value in text.values.items() if type(value) is str and value in names}
+        return text.put(**called)
+    for name, instead in names.items():
+        text = text.replace(name, instead)
+    return text
+
+
 def said(template: str, /, *, context: str = "", **values: Any) -> Text:
     """A sentence.
 

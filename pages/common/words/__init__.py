@@ -55,14 +55,14 @@ def numeral(text: str) -> str:
     return translated(Numeral(text))
 
 
+def capitalised(text: str) -> str:
+    """With a capital at its beginning, and the rest as it is."""
+    return text[:1].upper() + text[1:]
+
+
 def typeset(latex: str) -> str:
     """A formula with the decimal sign of the language: a comma in braces, which LaTeX sets without a blank."""
     return latex if language() == ENGLISH else DECIMAL.sub("{,}", latex)
-
-
-def separators() -> str:
-    """Decimal sign and what groups thousands, as plotly asks for them; thousands are not grouped."""
-    return f"{'.' if language() == ENGLISH else ','}\N{NO-BREAK SPACE}"
 
 
 def _in(known: Catalogue, text: str) -> str:
