@@ -20,6 +20,7 @@ from simc_core.plants.pasted.factored import read_factored
 from simc_core.plants.pasted.grammar import Reader
 from simc_core.plants.pasted.parameters import DAMPING, DELAYS, GAINS, LAGS, from_parameters
 from simc_core.plants.pasted.statements import Statement, statements
+from simc_core.plants.pasted.tokens import fault
 from simc_core.plants.plant import Plant
 from simc_core.wording import said
 
@@ -60,7 +61,7 @@ def parse_plant(text: str) -> Plant:
     (3.0, (6.0, 4.0, 2.0))
     """
     if not isinstance(text, str):
-        raise ParseError(said("a transfer function must be text, found {kind}", kind=type(text).__name__))
+        raise ParseError(said("a transfer function must be text, found {name__}", name__=type(text).__name__))
     if len(text) > LONGEST_TEXT:
         raise ParseError(
             said(
@@ -228,7 +229,7 @@ class _Statements:
         return value
 
     def fault(self, message: str, part: Statement) -> ParseError:
-        return ParseError(said("{message} (position {at})", message=message, at=part.at + 1), self.text, part.at)
+        return fault(message, self.text, part.at)
 
 
 def _only_digits(text: str) -> bool:

@@ -9,14 +9,11 @@ atom     = number | "s" | "(" fraction ")" | "exp" "(" sum ")" | "e^" exponent |
 """
 
 import math
-import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 from simc_core import checks
-from simc_core.errors import InvalidParameter, ParseError
-from simc_core.numbers import read_exact_numbers
-from simc_core.numbers.one import decimal
+from simc_core.errors import ParseError
 from simc_core.numbers.refusal import quoted
 from simc_core.numbers.signs import LOWERED
 from simc_core.plants.parse_values import (
@@ -36,6 +33,7 @@ from simc_core.plants.parse_values import (
     times,
     too_large,
 )
+from simc_core.plants.pasted.number_token import coefficients, number_written
 from simc_core.plants.pasted.shapes import (
     check_lost_powers,
     check_lost_tens,
@@ -45,12 +43,11 @@ from simc_core.plants.pasted.shapes import (
     with_bar,
 )
 from simc_core.plants.pasted.sums_of_delays import advice
-from simc_core.plants.pasted.tokens import Token, bare, superscript_delay, tokens
+from simc_core.plants.pasted.tokens import Token, bare, fault, superscript_delay, tokens
 from simc_core.wording import said
 
 DEEPEST = 50  # nested brackets
 HIGHEST_POWER = 40
-LARGEST_EXPONENT = 300  # of a number with a decimal exponent
 CLOSING = {"(": ")", "[": "]", "{": "}"}
 EXPONENTIALS = ("exp", "e", "delay")
 ATOMS = ("number", "s", "name", "frac", "sqrt", "pi", "call", "list", *EXPONENTIALS)
@@ -111,8 +108,7 @@ class Reader:
         return None
 
     def fault(self, message: str, at: int | None = None) -> ParseError:
-        at = self.token.at if at is None else at
-        return ParseError(said("{message} (position {at})", message=message, at=at + 1), self.text, at)
+        return fault(message, self.text, self.token.at if at is None else at)
 
     def fraction(self) -> Value:
         value = self.sum()
@@ -247,7 +243,7 @@ class Reader:
         self.next += 1
         match token.kind:
             case "number":
-                return constant(self.number(token))
+                return constant(number_written(self.text, token, self.token))
             case "s":
                 return Value((S,))
             case "name":
@@ -263,7 +259,7 @@ class Reader:
             case "frac":
                 return self.divided(self.group(), self.group(), token.at)
             case "list":
-                return self.coefficients(token)
+                return self.checked(polynomial(coefficients(self.text, token)), token.at)
             case "call":
                 return self.call(self, token)
             case "sign" if token.text in CLOSING:
@@ -281,58 +277,6 @@ class Reader:
         name = bare(token.text)
         self.used.add(name)
         return self.names[name]
-
-    def number(self, token: Token) -> Fraction:
-        digits, _, exponent = token.text.lower().partition("e")
-        if exponent and abs(int(exponent[:6])) > LARGEST_EXPONENT:
-            raise self.fault(
-                said(
-                    "a number must be below 1e{largest_exponent}, found {text}",
-                    largest_exponent=LARGEST_EXPONENT,
-                    text=token.text[:20],
-                ),
-                token.at,
-            )
-        following = self.token
-        if following.kind == "number" and following.at == token.at + len(token.text):
-            raise self.fault(
-                said(
-                    "'{text}' is not a number: write one decimal point and no other",
-                    text=quoted(token.text + following.text),
-                ),
-                token.at,
-            )
-        if " " in digits and "+" not in self.text and " " in self.text[token.at : token.at + len(token.text)]:
-            # a link whose + was not written %2B has lost all of them: 1 200s may have been 1+200s
-            raise self.fault(
-                said(
-                    "'{text}' can be read in two ways: write {value} without a blank, or put + between",
-                    text=quoted(token.text),
-                    value=quoted(digits.replace(" ", "")),
-                ),
-                token.at,
-            )
-        try:
-            return decimal(said("the number"), digits) * Fraction(10) ** int(exponent or 0)
-        except InvalidParameter as error:
-            raise self.fault(str(error), token.at) from None
-
-    def coefficients(self, token: Token) -> Value:
-        if re.fullmatch(r"\[\s*[+-]?\d+,\d+\s*\]", token.text):
-            raise self.fault(
-                said(
-                    "'{text}' can be read in two ways: write {value} for one number, {value_2} for two coefficients",
-                    text=token.text,
-                    value=token.text.replace(",", "."),
-                    value_2=token.text.replace(",", " "),
-                ),
-                token.at,
-            )
-        try:
-            found = read_exact_numbers(said("the list"), token.text)
-        except InvalidParameter as error:
-            raise self.fault(str(error), token.at) from None
-        return self.checked(polynomial(found), token.at)
 
     def square_root(self, token: Token) -> Value:
         argument = self.atom() if self.token.kind == "number" else self.group()

@@ -4,7 +4,7 @@ import re
 from itertools import pairwise
 
 from simc_core.errors import ParseError
-from simc_core.plants.pasted.tokens import Token
+from simc_core.plants.pasted.tokens import Token, fault
 from simc_core.wording import said
 
 SIGNS = ("+", "-", "*", "/", "^", "**")
@@ -56,14 +56,13 @@ def check_lost_powers(text: str, row: list[Token]) -> None:
         signs = ("+", "-")
         in_sum = row[after + 1].text in signs or (i > 1 and row[i - 1].text in signs and row[i - 2].text != "(")
         if torn or not in_sum:
-            raise ParseError(
+            raise fault(
                 said(
                     "'{text}' before s can be read in two ways: did you mean {found} e^(-{time}s)? If it is a "
-                    "coefficient, write it without e (position {at})",
+                    "coefficient, write it without e",
                     text=token.text,
                     found=found[1],
                     time=time,
-                    at=token.at + 1,
                 ),
                 text,
                 token.at,
@@ -77,24 +76,22 @@ def check_lost_tens(text: str, row: list[Token]) -> None:
             continue
         tight = ten.text == "10" and after.text == "-" and after.at == ten.at + 2 and last.at == ten.at + 3
         if tight and last.kind == "number":
-            raise ParseError(
+            raise fault(
                 said(
                     "'10-{text}' after a multiplication can be read in two ways: write 10^-{text} if it is a power "
-                    "of ten, or 10 - {text} with blanks if it is a difference (position {at})",
+                    "of ten, or 10 - {text} with blanks if it is a difference",
                     text=last.text,
-                    at=ten.at + 1,
                 ),
                 text,
                 ten.at,
             )
         if text[times.at] not in "*." and ten.text[2:].isdigit():
-            raise ParseError(
+            raise fault(
                 said(
                     "'{text}' after a multiplication can be read in two ways: write 10^{text_2} if it is a power of "
-                    "ten, or * before it if it is not (position {at})",
+                    "ten, or * before it if it is not",
                     text=ten.text,
                     text_2=ten.text[2:],
-                    at=ten.at + 1,
                 ),
                 text,
                 ten.at,
@@ -112,11 +109,10 @@ def check_raised(text: str, plain: str, row: list[Token]) -> None:
             (after.kind == "s" and token.kind == "number") or (token.kind == "s" and after.text in ("+", "-"))
         ):
             at = after.at if after.kind == "s" else token.at
-            raise ParseError(
+            raise fault(
                 said(
                     "the wide gap at this s can be a power on a line of its own: write s^2 for s squared, and 2 s "
-                    "with one blank (position {at})",
-                    at=at + 1,
+                    "with one blank"
                 ),
                 text,
                 at,
@@ -171,12 +167,11 @@ def check_one_variable(text: str, row: list[Token]) -> None:
     if len(variables) > 1:
         first, second, *_ = variables
         at = variables[second].at
-        raise ParseError(
+        raise fault(
             said(
-                "there are two variables, {first} and {second}: write one, or give {second} a value (position {at})",
+                "there are two variables, {first} and {second}: write one, or give {second} a value",
                 first=first,
                 second=second,
-                at=at + 1,
             ),
             text,
             at,

@@ -17,6 +17,11 @@ class Token(NamedTuple):
     at: int
 
 
+def fault(message: str, text: str, at: int) -> ParseError:
+    """The refusal of what stands at this place of the text."""
+    return ParseError(said("{message} (position {at})", message=message, at=at + 1), text, at)
+
+
 RAISED = SUPERSCRIPTS[:10]
 LETTER = rf"(?:(?![{RAISED}½¼¾ˢᵖ])[^\W\d_])"
 WITH_POINT = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.|(?:\.\d{3})+,)\d+"
@@ -113,16 +118,7 @@ def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str])
         found = TOKEN.match(plain, at, stop)
         if not found:
             hint = f": {SIGN_HINTS[text[at]]}" if text[at] in SIGN_HINTS else ""
-            raise ParseError(
-                said(
-                    "'{text}' is not part of a transfer function{hint} (position {at})",
-                    text=text[at],
-                    hint=hint,
-                    at=at + 1,
-                ),
-                text,
-                at,
-            )
+            raise fault(said("'{text}' is not part of a transfer function{hint}", text=text[at], hint=hint), text, at)
         kind, written = found.lastgroup, found[0]
         assert kind is not None  # every alternative of TOKEN has a name
         if kind == "list" and not _is_list(written):
@@ -212,16 +208,14 @@ def _closing(text: str, plain: str, at: int) -> int:
 def _lost_exponent(text: str, plain: str, at: int, end: int) -> ParseError:
     lost = re.match(r"\s*-\s*([\d.,]*)\s*\*?\s*[sp]", plain[end:])
     hint = said(": did you mean e^(-{lost}s)?", lost=lost[1]) if lost else said(": write e^{-3s} or exp(-3s)")
-    return ParseError(said("e must have an exponent{hint} (position {at})", hint=hint, at=at + 1), text, at)
+    return fault(said("e must have an exponent{hint}", hint=hint), text, at)
 
 
 def _unknown(text: str, known: str, written: str, at: int) -> ParseError:
     shown = written if len(written) <= 30 else written[:27] + "..."
     key = known.rpartition(".")[2]
     hint = HINTS.get(key, HINTS.get(key.lower(), A_NAME if len(bare(written)) <= 2 else IN_S))
-    return ParseError(
-        said("'{shown}' is not known: {hint} (position {at})", shown=shown, hint=hint, at=at + 1), text, at
-    )
+    return fault(said("'{shown}' is not known: {hint}", shown=shown, hint=hint), text, at)
 
 
 def superscript_delay(written: str) -> int:
