@@ -6,12 +6,14 @@ from time import monotonic
 
 import streamlit as st
 
+from pages.common.from_data import points_view
 from pages.common.from_data.work import MORE, USUAL, Fits, Work
 from pages.common.parts.structures import TITLES, sign_of
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
 from pages.common.session.design import Design
 from simc_core import Identified, Trend
+from simc_core.identification.judgement.gain_per_move import disagreement
 from simc_core.notation import number
 
 FORMULAS = {
@@ -90,8 +92,8 @@ def ranking(fits: Fits, model: Identified, trend: Trend) -> None:
         )
 
 
-def card(model: Identified, trend: Trend) -> None:
-    """The model with its 95 % intervals, and the verdicts."""
+def card(model: Identified, trend: Trend, names: list[str]) -> None:
+    """The model with its 95 % intervals, and the verdicts.   names: of the records it was fitted to."""
     st.markdown(f"$\\displaystyle G(s) = {FORMULAS[model.structure]}$")
     cells = "".join(_cell(name, model, trend) for name in model.parameters)
     slope = ""
@@ -107,15 +109,25 @@ def card(model: Identified, trend: Trend) -> None:
     if model.verdicts:
         with st.container(key="verdicts"):
             st.warning("\n".join(f"- {sentence(verdict)}" for verdict in model.verdicts))
+    apart = disagreement(model.gains)
+    if apart is not None and apart.kind == "gain":
+        st.button(
+            "A model for each operating point",
+            key="to_points",
+            icon=":material/arrow_forward:",
+            type="tertiary",
+            on_click=lambda: state.set_widget("ways", points_view.TITLE),
+        )
     if len(model.gains) > 1:
-        _gains(model, trend)
+        _gains(model, trend, names)
 
 
-def _gains(model: Identified, trend: Trend) -> None:
+def _gains(model: Identified, trend: Trend, names: list[str]) -> None:
     with st.expander("Gain of each move"):
         unit = trend.units.get("t", "")
         rows = [
-            {
+            ({"record": f"{each.record + 1}: {names[each.record]}"} if len(names) > 1 else {})
+            | {
                 f"t [{unit}]" if unit else "t": number(each.t),
                 "OP": f"{number(each.before)} → {number(each.after)}",
                 "gain": number(each.gain),

@@ -8,6 +8,7 @@ from pages.common.from_data.work import Fits, Work, kept, nearly
 from pages.common.parts.symbols import sentence
 from simc_core import Identified, Trend, ms_of_cloud, robust_tau_c
 from simc_core.figures.trend import tau_c_figure
+from simc_core.identification.judgement.gain_per_move import disagreement
 from simc_core.notation import number, rounded_up
 from simc_core.studies.bands import ROBUST
 
@@ -52,9 +53,10 @@ def _say(tau_c: float, limit: float, model: Identified, trend: Trend, structures
     times = f" = {many} θ" if many not in ("", "1") else " = θ" if many else ""
     others = {1: "", 2: ", and another structure that fits nearly as well"}
     besides = others.get(structures, f", and {structures - 1} other structures that fit nearly as well")
+    apart = " Not for gains that differ from move to move." if disagreement(model.gains) else ""
     st.markdown(
         f"With $\\tau_c$ = {size}{times} or slower, $M_s \\le$ {limit:g} holds with a probability of 95 % for "
-        f"all that the record leaves open: the errors of the model{besides}."
+        f"all that the record leaves open: the errors of the model{besides}.{apart}"
     )
 
 
