@@ -32,7 +32,7 @@ with shown:
     if work is None:
         source.empty()
     elif work.trend is None:
-        st.error(sentence(told(work.reading.refusal)))
+        st.error(sentence(told(work.refusal)))
         loop_view.known_controller(work)
     else:
         trend = work.trend

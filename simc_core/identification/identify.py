@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import t as student
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter, NotIdentifiable
@@ -184,7 +183,7 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
             f"The gain is {parameters[first]:.3g}, against the sign given: PV was moved by something else, or the loop "
             "was closed and not excited."
         )
-    width = float(student.ppf(0.975, found.freedom))
+    width = found.half_width
     plant, model = as_model(problem.structure.key, parameters)
     own = problem.root_weight > 0
     residuals = found.fit.residual

@@ -101,7 +101,7 @@ def test_one_operating_point_makes_none():
 
 def test_gains_that_differ_are_told_with_the_offer_of_a_schedule_and_on_the_tuning_page():
     app = two(k=1.0)
-    assert "gain differs from record to record, 1 from 60 to 70 in record 2 and 2 from 30 to 40 in record 1" in texts(app)
+    assert "from record to record, 1 from 60 to 70 in record 2 and 2 from 30 to 40 in record 1" in texts(app)
     assert "Record 2: `pasted rows`" in texts(app)
     assert not [button for button in app.button if button.key == "tune_points"]
     assert "Not for gains that differ" in texts(app)

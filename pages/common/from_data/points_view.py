@@ -69,7 +69,7 @@ def _row(each: OperatingPoint, trend: Trend) -> dict[str, str]:
         "PV": number(each.PV, 3),
         "moves": str(each.moves),
         gain.replace("_prime", "'"): number(p[gain]),
-        "±": number(1.96 * errors[gain], 2),
+        "±": number(each.identified.estimate.half_width * errors[gain], 2),
         f"θ{time}": number(p["theta"], 3),
     }
     return row | {f"{label}{time}": number(p[name], 3) for name, label in (("tau1", "τ₁"), ("tau2", "τ₂")) if name in p}

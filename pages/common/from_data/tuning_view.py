@@ -38,7 +38,9 @@ def show(work: Work, trend: Trend, fits: Fits, model: Identified) -> None:
             if st.button(label, type="primary", key="tune_robust"):
                 send(work, trend, model, fits, slow)
         label = "Tune this model, τc = θ" if slower else "Tune this model"
-        if st.button(label, type="secondary" if slower else "primary", key="tune"):
+        if not (slower and model.model.theta == 0) and st.button(
+            label, type="secondary" if slower else "primary", key="tune"
+        ):
             send(work, trend, model, fits)
     folded = st.expander("Ms against τc", key="Ms_against_tau_c", on_change="rerun")
     if folded.open:

@@ -1,5 +1,6 @@
 """The record that is being worked on: read once, then cut, cleaned and fitted. Pure: no streamlit."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -11,10 +12,10 @@ from simc_core.identification.moves import Move
 from simc_core.identification.reading.meaning import Reading, understand
 from simc_core.identification.reading.reader import load
 from simc_core.identification.reading.table import Table
+from simc_core.identification.uncertainty import NEAR
 
 OF_A_FILE = ("decimal", "day_first", "sheet")  # what a file must be read anew for
-USUAL = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag")
-NEAR = 6.0  # of the criterion: structures that fit nearly as well are part of what is not known
+ARGUMENT = re.compile(r", \w+=\.\.\.")
 MORE = ("inverse", "oscillating", "DIPDT", "unstable")
 
 
@@ -71,6 +72,11 @@ class Work:
         """The whole record."""
         return self.reading.trend
 
+    @property
+    def refusal(self) -> str:
+        """Why there is no trend; what the library calls the argument that helps is a field of the page."""
+        return ARGUMENT.sub("", self.reading.refusal)
+
     def answer(self, name: str, value: Any) -> None:
         """Take an answer and understand the record anew. Raises SimcError, and then nothing has changed."""
         how = self.how | {name: value}
@@ -83,7 +89,7 @@ class Work:
     def part(self, chosen: Chosen) -> tuple[Trend | None, str]:
         """The part that is fitted; None, and why, where there is none."""
         if self.trend is None:
-            return None, self.reading.refusal
+            return None, self.refusal
         try:
             return _cut(self.trend, chosen), ""
         except SimcError as error:

@@ -66,9 +66,7 @@ class Disagreement:
     kind: str
 
 
-def gains_per_move(
-    fit: Fit, share: float, moves: Sequence[tuple[Move, ...]], floor: float
-) -> tuple[GainOfMove, ...]:
+def gains_per_move(fit: Fit, share: float, moves: Sequence[tuple[Move, ...]], floor: float) -> tuple[GainOfMove, ...]:
     """The gains of the moves of all records, dead time and lags fitted anew; () where there are not 2 to compare.
 
     Parameters
@@ -118,7 +116,8 @@ def disagreement(moves: tuple[GainOfMove, ...]) -> Disagreement | None:
     found = [pair for pair in pairs if _apart(*pair, errors)]
     if not found:
         return None
-    low, high = sorted(max(found, key=lambda pair: abs(pair[0].gain - pair[1].gain)), key=lambda one: abs(one.gain))
+    pair = max(found, key=lambda pair: abs(pair[0].gain - pair[1].gain))
+    low, high = sorted(pair, key=lambda one: abs(one.gain))
     answered = low.record != high.record and abs(low.gain) > 3 * low.standard_error
     if abs(low.gain) < STUCK * abs(high.gain) and not answered:
         return Disagreement(low, high, "stuck")

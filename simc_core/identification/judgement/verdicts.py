@@ -82,7 +82,8 @@ def disagree(moves: tuple[GainOfMove, ...]) -> list[str]:
     if found.low.record != found.high.record:
         return [
             f"The gain differs from record to record, {low} and {high}: the process is not linear, and one model is "
-            "right for neither. Fit each operating point by itself and make a gain schedule, or tune for the larger gain."
+            "right for neither. Fit each operating point by itself and make a gain schedule, or tune for the larger "
+            "gain."
         ]
     return [
         f"The gain differs from move to move, {low} and {high}: the process is not linear, or the valve sticks. Tune "
