@@ -1,7 +1,9 @@
 """SIMC tuning of PI/PID controllers, with exact dead time. See README for a ten-line example."""
 
 from simc_core.autotuning.auto_tune import AutoTuned, auto_tune
-from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_cascade
+from simc_core.cascade.by_simc import simc_cascade
+from simc_core.cascade.by_synthesis import synthesis_cascade
+from simc_core.cascade.design import CascadeDesign
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.certificate.verdict import NestedStability, Stability, count_unstable, stability, stability_many
 from simc_core.controllers.forms import IController, IdealPid, ParallelPid, SeriesPid

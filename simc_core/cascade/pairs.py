@@ -7,7 +7,9 @@ is the paper's constraint where a row is listed, and a usual one elsewhere.
 from dataclasses import dataclass
 from functools import lru_cache
 
-from simc_core.cascade.design import CascadeDesign, simc_cascade, synthesis_cascade
+from simc_core.cascade.by_simc import simc_cascade
+from simc_core.cascade.by_synthesis import synthesis_cascade
+from simc_core.cascade.design import CascadeDesign
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.metrics.performance import performance
 from simc_core.plants.plant import Plant

@@ -14,16 +14,13 @@ tau_D' = tau_D/f. Back only if tau_I' >= 4 tau_D': f = (1 + sqrt(1 - 4 tau_D'/ta
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from typing import ClassVar, Self
-
-import numpy as np
-from numpy.typing import ArrayLike
+from typing import ClassVar
 
 from simc_core import checks
 from simc_core.algebra.factors import Factored, factors
+from simc_core.controllers.any_form import AnyForm
+from simc_core.controllers.in_factors import parallel_factors, series_factors
 from simc_core.errors import FormError, InvalidParameter
 
 FORMS = ("series", "ideal", "parallel")
@@ -48,97 +45,7 @@ def _standard_fields(controller: "SeriesPid | IdealPid") -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class _Forms:
-    """What all forms share, by way of the parallel one."""
-
-    SETTINGS: ClassVar[tuple[str, ...]]  # names of what is set in this form
-    OPTIONAL: ClassVar[tuple[str, ...]] = ("tau_F", "b", "c")  # filter and weights, which come on top
-
-    @property
-    def settings(self) -> dict[str, float]:
-        """The settings of this form by name, filter and weights apart."""
-        return {name: getattr(self, name) for name in self.SETTINGS}
-
-    @property
-    def action(self) -> str:
-        """reverse, where the output falls when the measurement rises, or direct: by the sign of the gain."""
-        form = self.to_parallel()
-        return "reverse" if (form.Kp or form.Ki or form.Kd) > 0 else "direct"
-
-    def in_form(self, form: str) -> "Controller":
-        """The same controller in one of FORMS; pure integral action stays what it is. Raises FormError."""
-        forms: dict[str, Callable[[], Controller]] = {
-            "series": self.to_series,
-            "ideal": self.to_ideal,
-            "parallel": self.to_parallel,
-        }
-        return forms[form]()
-
-    def has_form(self, form: str) -> bool:
-        """Whether `in_form` has an answer."""
-        try:
-            self.in_form(form)
-        except FormError:
-            return False
-        return True
-
-    def rescaled(self, time: Fraction = Fraction(1), gain: float = 1.0) -> Self:
-        """The same controller in other units.
-
-        Parameters
-        ----------
-        time : Fraction
-            Times are multiplied by it: 1/60 from seconds to minutes.
-        gain : float
-            The gain of the controller is multiplied by it: 1/g for a plant whose gain is multiplied by g.
-
-        Returns
-        -------
-        Controller
-            In the same form, weights unchanged.
-        """
-        power = {"Kc": 0, "Kp": 0, "tau_I": 1, "tau_D": 1, "tau_F": 1, "Ki": -1, "K_I": -1, "Kd": 1}
-        values: dict[str, float] = {}
-        for name in (*self.SETTINGS, *(name for name in self.OPTIONAL if name in power)):
-            value = getattr(self, name) * (1.0 if name.startswith("tau") else gain)
-            ratio = time ** power[name]
-            values[name] = value * ratio.numerator / ratio.denominator
-        return replace(self, **values)
-
-    def response(self, s: ArrayLike) -> np.ndarray:
-        """C(s) of the feedback path, from -y to u; any shape of s."""
-        return self.factored(s)
-
-    def setpoint_response(self, s: ArrayLike) -> np.ndarray:
-        """Transfer function from r to u, (b Kp + Ki/s + c Kd s)/(tau_F s + 1); any shape of s."""
-        return self.setpoint_factored(s)
-
-    @property
-    def factored(self) -> Factored:
-        """Feedback path as the engine sees it."""
-        raise NotImplementedError
-
-    def to_series(self) -> "SeriesPid":
-        """The same controller in series form."""
-        raise NotImplementedError
-
-    def to_ideal(self) -> "IdealPid":
-        """The same controller in ideal form."""
-        raise NotImplementedError
-
-    def to_parallel(self) -> "ParallelPid":
-        """The same controller in parallel form."""
-        raise NotImplementedError
-
-    @property
-    def setpoint_factored(self) -> Factored:
-        """Set-point path as the engine sees it."""
-        form = self.to_parallel()
-        return _parallel(form.b * form.Kp, form.Ki, form.c * form.Kd, form.tau_F)
-
-
-@dataclass(frozen=True, slots=True)
-class SeriesPid(_Forms):
+class SeriesPid(AnyForm):
     """Kc (tau_I s + 1)/(tau_I s) (tau_D s + 1)/(tau_F s + 1); tau_I = math.inf: no integral action.
 
     Parameters
@@ -180,7 +87,7 @@ class SeriesPid(_Forms):
     @property
     def factored(self) -> Factored:
         """Feedback path as the engine sees it."""
-        return _series(self.Kc, self.tau_I, self.tau_D, self.tau_F)
+        return series_factors(self.Kc, self.tau_I, self.tau_D, self.tau_F)
 
     def with_filter(self, ratio: float) -> "SeriesPid":
         """The same controller with tau_F = ratio tau_D."""
@@ -205,7 +112,7 @@ class SeriesPid(_Forms):
 
 
 @dataclass(frozen=True, slots=True)
-class IdealPid(_Forms):
+class IdealPid(AnyForm):
     """Kc (1 + 1/(tau_I s) + tau_D s)/(tau_F s + 1); tau_I = math.inf: no integral action.
 
     Parameters
@@ -249,7 +156,7 @@ class IdealPid(_Forms):
         """Feedback path as the engine sees it, in real factors where there are any."""
         if self.tau_I >= 4 * self.tau_D:
             series = self.to_series()
-            return _series(series.Kc, series.tau_I, series.tau_D, series.tau_F)
+            return series_factors(series.Kc, series.tau_I, series.tau_D, series.tau_F)
         return Factored(
             self.Kc / self.tau_I,
             factors((self.tau_I * self.tau_D, self.tau_I, 1.0)),
@@ -285,7 +192,7 @@ class IdealPid(_Forms):
 
 
 @dataclass(frozen=True, slots=True)
-class ParallelPid(_Forms):
+class ParallelPid(AnyForm):
     """(Kp + Ki/s + Kd s)/(tau_F s + 1); not all three may be zero.
 
     Parameters
@@ -329,7 +236,7 @@ class ParallelPid(_Forms):
     @property
     def factored(self) -> Factored:
         """Feedback path as the engine sees it."""
-        return _parallel(self.Kp, self.Ki, self.Kd, self.tau_F)
+        return parallel_factors(self.Kp, self.Ki, self.Kd, self.tau_F)
 
     def with_filter(self, ratio: float) -> "ParallelPid":
         """The same controller with tau_F = ratio Kd/Kp. Raises FormError where there is no such time."""
@@ -363,7 +270,7 @@ class ParallelPid(_Forms):
 
 
 @dataclass(frozen=True, slots=True)
-class IController(_Forms):
+class IController(AnyForm):
     """K_I/s, the SIMC controller of pure dead time [SK03 Table 1].
 
     Parameters
@@ -390,7 +297,7 @@ class IController(_Forms):
     @property
     def factored(self) -> Factored:
         """Feedback path as the engine sees it."""
-        return _parallel(0.0, self.K_I, 0.0, 0.0)
+        return parallel_factors(0.0, self.K_I, 0.0, 0.0)
 
     def in_form(self, form: str) -> "IController":
         """Itself in every form: it has nothing but K_I."""
@@ -423,19 +330,3 @@ def needs_filter(why: str) -> str:
 
 
 Controller = SeriesPid | IdealPid | ParallelPid | IController
-
-
-def _series(Kc: float, tau_I: float, tau_D: float, tau_F: float) -> Factored:
-    derivative, filter_ = (0.0, tau_D, 1.0), (0.0, tau_F, 1.0)
-    if tau_I == math.inf:
-        return Factored(Kc, factors(derivative), factors(filter_))
-    return Factored(Kc / tau_I, factors((0.0, tau_I, 1.0), derivative), factors((0.0, 1.0, 0.0), filter_))
-
-
-def _parallel(Kp: float, Ki: float, Kd: float, tau_F: float) -> Factored:
-    filter_ = (0.0, tau_F, 1.0)
-    if Ki == 0 and Kd == 0:
-        return Factored(Kp, factors(), factors(filter_))
-    if Ki == 0:
-        return Factored(1.0, factors((0.0, Kd, Kp)), factors(filter_))
-    return Factored(Ki, factors((Kd / Ki, Kp / Ki, 1.0)), factors((0.0, 1.0, 0.0), filter_))

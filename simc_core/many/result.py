@@ -15,6 +15,7 @@ from simc_core.reduction.records import LARGEST_MS
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.advice import Advice
 from simc_core.studies.bands import exceeds
+from simc_core.studies.own_settings import DAMPING
 
 LONGEST_REFUSAL = 600  # characters
 
@@ -122,7 +123,8 @@ class Result:
         return "slow oscillation" if any(each.quantity == SLOW for each in self.advice) else ""
 
 
-SLOW = "Kc k' tau_I now"
+NOW = " now"  # behind the name of a quantity: of the present settings
+SLOW = DAMPING + NOW
 TROUBLES = ("not stable", "fragile", "slow oscillation", "")
 
 

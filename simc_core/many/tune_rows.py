@@ -155,10 +155,9 @@ def _told(row: Mapping[str, Any], design: _Design, made: Judged, now: Judged | E
     """All that is said of a row. The settings in use now, or the box, may be refused alone."""
     request, controller = design.request, design.controller
     if design.model is None:
-        advice = tuple(notes.on_any(made))
+        advice = notes.on_any(request.plant, made)
     else:
         advice = notes.on_simc(request, design.model, design.tau_c, made, Loop(request.plant, controller))
-    advice += tuple(notes.on_responses(made))
     result = Result(row, controller, made.margins, made.performance, plant=request.plant, model=design.model)
     if request.box:
         spans = request.pv_span, request.out_span
@@ -173,5 +172,5 @@ def _told(row: Mapping[str, Any], design: _Design, made: Judged, now: Judged | E
     advice = notes.gravest_first(advice)
     if isinstance(now, Judged):
         result = replace(result, present=now)
-        advice += notes.gravest_first(tuple(notes.on_present(request, now)))
+        advice += notes.on_present(request.plant, now)
     return replace(result, advice=advice)

@@ -54,19 +54,14 @@ class Criterion:
 
         After a step of the output the error has the integral tau_I/(Kc k), and 0 round an integrating plant.
         """
-        after_output = IE / abs(self.plant.k) * (self.plant.integrators == 0)
-        match self.name:
-            case "load":
-                return IE
-            case "setpoint":
-                return after_output
-            case _:
-                assert self.references is not None  # criterion_of gives them to J
-                return J(self.references, after_output, IE)
+        return self._of(IE / abs(self.plant.k) * (self.plant.integrators == 0), IE)
 
     def __call__(self, forms: Sequence[ParallelPid]) -> np.ndarray:
         """Of each controller, all with one tau_F; math.inf where the loop does not come to rest."""
-        setpoint, load = absolute_errors(self.plant, forms)
+        return self._of(*absolute_errors(self.plant, forms))
+
+    def _of(self, setpoint: np.ndarray, load: np.ndarray) -> np.ndarray:
+        """The criterion from the integrals of both steps."""
         match self.name:
             case "load":
                 return load

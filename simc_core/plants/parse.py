@@ -20,6 +20,7 @@ from simc_core.plants.pasted.factored import read_factored
 from simc_core.plants.pasted.grammar import Reader
 from simc_core.plants.pasted.parameters import DAMPING, DELAYS, GAINS, LAGS, from_parameters
 from simc_core.plants.pasted.statements import Statement, statements
+from simc_core.plants.pasted.tokens import fault
 from simc_core.plants.plant import Plant
 
 LONGEST_TEXT = 2000
@@ -193,7 +194,7 @@ class _Statements:
         return value
 
     def fault(self, message: str, part: Statement) -> ParseError:
-        return ParseError(f"{message} (position {part.at + 1})", self.text, part.at)
+        return fault(message, self.text, part.at)
 
 
 def _only_digits(text: str) -> bool:

@@ -10,7 +10,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from simc_core.cascade.design import synthesis_cascade
+from simc_core.cascade.by_synthesis import synthesis_cascade
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError

@@ -9,36 +9,34 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
-from simc_core.errors import FormError, NotReducible, SimcError
+from simc_core.errors import SimcError
 from simc_core.metrics.performance import performance
 from simc_core.notation import number
 from simc_core.plants.models import (
     DoubleIntegratingDelay,
-    FirstOrderDelay,
-    IntegratingDelay,
     Model,
     OscillatingDelay,
-    SecondOrderDelay,
     UnstableDelay,
 )
 from simc_core.plants.plant import Plant
 from simc_core.plants.step_response import rise_time
 from simc_core.reduction.equal_peak import load_error
 from simc_core.reduction.explanation import of_orders
-from simc_core.reduction.half_rule import reduced_model
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.bands import exceeds
 from simc_core.studies.remedies import FILTERS, calmer, filter_that_costs_little, tight
 from simc_core.studies.tuned import Tuned
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
-SLOW_LIMIT = 4.0  # Kc k' tau_I below it: slow oscillation [SK03 eq. 22]
 SLOW_INTEGRATING = 8.0  # tau_c/theta of the "moderate" choice [V06 eq. 7]; an integrating plant has no time of its own
 HARD_A_THETA = 0.25  # Ms of the rule for unstable poles is 2.06 here, 4.62 at 0.4
-LIMIT_ROUNDING = 1e-9  # tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4 exactly, up to this
+LIMIT_ROUNDING = 1e-9  # tau_c = theta is at the limit, up to this
 LARGE_OVERSHOOT = 0.2  # of a set-point step
 WEIGHTS = (0.7, 0.5, 0.3, 0.2, 0.0)  # set-point weights that are tried
 LEVELS = ("error", "warning", "note")
+NOT_STABLE = "The loop is not stable, so it has neither margins nor IAE."
+FRAGILE = "L passes close to -1: small errors of the model can make the loop unstable."
+UNFILTERED = "The derivative has no filter: measurement noise passes without limit."
 BY_MODEL = {
     DoubleIntegratingDelay: "Two integrators need derivative action: the rule for this plant is a PID.",
     OscillatingDelay: "The rule for an oscillating plant is a PID, in ideal form.",
@@ -85,8 +83,7 @@ def not_stable(of: Tuned) -> Advice | None:
         return None
     change, gives = calmer(of)
     remedy = f"{in_words(change)}: {gives}." if change else _no_way(of)
-    text = "The loop is not stable, so it has neither margins nor IAE."
-    return Advice("error", "Not stable", text, remedy=remedy, change=change)
+    return Advice("error", "Not stable", NOT_STABLE, remedy=remedy, change=change)
 
 
 def large_Ms(of: Tuned) -> Advice | None:
@@ -94,7 +91,7 @@ def large_Ms(of: Tuned) -> Advice | None:
     Ms, PM = of.margins.Ms, of.margins.PM_deg
     if math.isnan(Ms) or not exceeds(Ms, LARGEST_MS):
         return None
-    text = "L passes close to -1: small errors of the model can make the loop unstable."
+    text = FRAGILE
     if PM >= GOOD_PM:
         text += f" The phase margin ({number(PM, 3)} deg) hides it: it looks at one frequency only."
     if isinstance(of.model, UnstableDelay) and of.model.a * of.model.theta >= HARD_A_THETA:
@@ -160,17 +157,16 @@ def derivative_noise(of: Tuned) -> Advice | None:
         times = f", {number(gain / abs(form.Kp), 3)} times Kp" if form.Kp else ""
         text = f"Fast measurement noise reaches the input with this gain{times}. A larger tau_F lowers it."
         return Advice("note", "High-frequency gain Kd/tau_F", text, gain)
-    text = "The derivative has no filter: measurement noise passes without limit."
     change, Ms = filter_that_costs_little(of)
     if not change:
         way = "damp the plant by an inner loop" if isinstance(of.model, OscillatingDelay) else "do without D"
         remedy = f"A filter of {number(FILTERS[-1])} tau_D already makes the loop fragile: {way}."
-        return Advice("warning", "tau_F = 0", text, remedy=remedy)
+        return Advice("warning", "tau_F = 0", UNFILTERED, remedy=remedy)
     assert isinstance(of.controller, SeriesPid | IdealPid)  # SIMC with derivative action
     tau_F = change["filter"] * of.controller.tau_D
     remedy = f"Set tau_F/tau_D = {number(change['filter'])}, tau_F = {number(tau_F, 3)}"
     remedy += f": Ms becomes {number(Ms, 3)}." if math.isfinite(Ms) else "."
-    return Advice("warning", "tau_F = 0", text, remedy=remedy, change=change)
+    return Advice("warning", "tau_F = 0", UNFILTERED, remedy=remedy, change=change)
 
 
 def oscillating_plant(of: Tuned) -> Advice | None:
@@ -257,42 +253,6 @@ def delivered(controller: Controller) -> str:
     return "PID" if controller.to_parallel().Kd else "PI"
 
 
-def advice_on_settings(plant: Plant, controller: Controller) -> tuple[Advice, ...]:
-    """What applies to settings that no rule has made, judged on the first-order model of the plant."""
-    try:
-        found = slow_oscillation(reduced_model(plant), controller)
-    except NotReducible:
-        return ()
-    return (found,) if found else ()
-
-
-def slow_oscillation(model: Model, controller: Controller) -> Advice | None:
-    """Kc k' tau_I < 4 with tau_I < tau1: oscillation of period above 25 theta [SK98; SK03 eq. 22; SG12].
-
-    SIMC settings are never below the limit; settings of one's own may be. The change is one of the controller.
-    """
-    match model:
-        case IntegratingDelay():
-            slope, tau1 = model.k_prime, math.inf
-        case FirstOrderDelay() | SecondOrderDelay() if model.tau1:
-            slope, tau1 = model.k / model.tau1, model.tau1
-        case _:
-            return None
-    try:
-        series = controller.to_series()
-    except FormError:
-        return None
-    if series.tau_I >= tau1 or series.tau_I == math.inf:
-        return None
-    product = series.Kc * slope * series.tau_I
-    if product >= SLOW_LIMIT * (1 - LIMIT_ROUNDING) or product < 0:
-        return None
-    Kc = SLOW_LIMIT / (slope * series.tau_I)
-    text = "The gain is too low for so short an integral time: slow oscillation."
-    remedy = f"Raise Kc to {number(Kc, 3)}, or tau_I until Kc tau_I = {number(SLOW_LIMIT / abs(slope), 3)}."
-    return Advice("warning", "Kc k' tau_I", text, product, SLOW_LIMIT, True, remedy, {"Kc": Kc})
-
-
 def in_words(change: dict[str, Any]) -> str:
     """A change of the design as an order, as "Take tau_c = 9"."""
     said = []
@@ -302,7 +262,7 @@ def in_words(change: dict[str, Any]) -> str:
         said.append("tau_c = " + ("theta" if change["tau_c"] is None else number(change["tau_c"], 4)))
     if "filter" in change:
         said.append(f"tau_F/tau_D = {number(change['filter'])}")
-    said += [f"{name} = {number(change[name], 4)}" for name in ("h", "r", "d", "b", "Kc") if name in change]
+    said += [f"{name} = {number(change[name], 4)}" for name in ("h", "r", "d", "b") if name in change]
     return "Take " + " with ".join(said)
 
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -10,6 +11,7 @@ from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
+import uvicorn
 from playwright.sync_api import expect
 
 from pages.common.session import project
@@ -75,6 +77,15 @@ def test_newcomers_get_one_of_the_two_and_keep_it(cluster):
         with urlopen(url, timeout=10) as answer:
             given.append(answer.headers["Set-Cookie"].split(";")[0])
     assert set(given) == {"simc_node=a", "simc_node=b"}  # by lot: 1 in 10^12 that one is missing
+
+
+def test_nginx_lets_go_of_a_silent_connection_before_the_app_closes_it():
+    """Else a request that meets the closing counts as a failure there, and visitors lose their session."""
+    kept = [
+        float(seconds) for seconds in re.findall(r"keepalive_timeout (\S+)s;", (ROOT / "deploy/nginx.conf").read_text())
+    ]
+    assert len(kept) == len(NODES)
+    assert max(kept) < uvicorn.Config("any").timeout_keep_alive  # Streamlit leaves it as it is
 
 
 @pytest.mark.parametrize("node", NODES)

@@ -7,7 +7,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from simc_core import Plant, margins
-from simc_core.cascade.design import simc_cascade
+from simc_core.cascade.by_simc import simc_cascade
 from tests.browser.test_live import at_rest, live
 from tests.browser.tools import both_themes, frames, idle, picture
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from simc_core import Plant, margins, performance, simc_cascade
-from simc_core.cascade.design import single_loop
+from simc_core.cascade.by_simc import single_loop
 from simc_core.cascade.verdict import CascadeVerdict, cascade_verdict
 
 FAST, SLOW = Plant(2.2, 3, (20,)), Plant(0.9, 20, (180,))

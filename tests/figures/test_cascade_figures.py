@@ -6,7 +6,8 @@ import pytest
 from scipy.integrate import trapezoid
 
 from simc_core import figures, frequency_response, margins, simulate
-from simc_core.cascade.design import single_loop, synthesis_cascade
+from simc_core.cascade.by_simc import single_loop
+from simc_core.cascade.by_synthesis import synthesis_cascade
 from simc_core.cascade.pairs import PAIRS, ROWS
 from simc_core.controllers.forms import ParallelPid
 from simc_core.figures import palette

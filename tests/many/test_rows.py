@@ -141,9 +141,10 @@ def test_present_settings_are_judged_beside_the_new_ones():
 
 
 def test_slow_oscillation_of_the_present_settings():
-    """Kc k' tau_I = 0.5 < 4 [SK03 eq. 22]."""
-    found = tune_row({"k_prime": 1, "theta": 1, "Kc": 0.1, "tau_I": 5})
+    """Kc k' tau_I = 0.5 < 4 [SK03 eq. 22]: zeta = 0.354 without dead time. A lag damps itself: 2 is no case."""
+    found = tune_row({"k_prime": 1, "theta": 0.1, "Kc": 0.1, "tau_I": 5})
     assert found.trouble == "slow oscillation"
+    assert tune_row({"k": 2.79, "theta": 2.44, "tau1": 15.8, "Kc": 0.966, "tau_I": 11.7}).trouble == ""
 
 
 def test_present_settings_that_make_no_controller_cost_the_comparison_alone():

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from pages.common.cascade.readout import strip_html
-from pages.common.session.design import Cascade
+from pages.common.session.cascade import Cascade
 from pages.common.session.state import ANSWERED
 from pages.common.studies.cascade import attempt, designed, of_row, scale, sounder, study, time_responses
 from simc_core import Plant, Scenario, simulate

@@ -8,7 +8,7 @@ import pytest
 
 from pages.common.live.cascade import rows as cascade_rows
 from pages.common.live.cascade import table as cascade_table
-from pages.common.session.design import Cascade
+from pages.common.session.cascade import Cascade
 from pages.common.session.sheet import Sheet
 from pages.common.studies.cascade import designed, study
 from simc_core import Plant, stability

@@ -13,7 +13,7 @@ from markdown_it import MarkdownIt
 
 from pages.common.parts.foreign_text import block, exact, printable, told
 from pages.common.session import links, project
-from pages.common.session.design import PLACES
+from pages.common.session.fields import PLACES
 from pages.common.session.loops import Loops
 from tests.pages.tools import run_page
 

@@ -11,8 +11,9 @@ from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileMan
 from pages.common.from_data.examples import EXAMPLES
 from pages.common.from_data.work import work_on, work_on_example
 from pages.common.session import links
-from pages.common.session.design import Design, in_time_unit
+from pages.common.session.design import Design
 from pages.common.session.record import Chosen, Origin
+from pages.common.session.time_unit import in_time_unit
 from simc_core import DataError, FirstOrderDelay, InvalidParameter, Loop, Plant, half_rule, margins, simc
 from simc_core.identification.rank import USUAL
 from tests.identification.test_known_controller import logged

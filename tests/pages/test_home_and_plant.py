@@ -9,8 +9,9 @@ import pytest
 from streamlit.testing.v1 import AppTest
 
 from pages.common.session import project
-from pages.common.session.design import Design, Tuning
+from pages.common.session.design import Design
 from pages.common.session.loops import Entry, Loops
+from pages.common.session.tuning import Tuning
 from simc_core import Plant, parse_plant
 from simc_core.plants.examples import EVERYDAY, EXAMPLES
 from tests.pages.tools import address, run_app, run_page, texts, unfold

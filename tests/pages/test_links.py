@@ -9,10 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pages.common.session import links, project
-from pages.common.session.design import Actuator, Cascade, Design, Excitation, Tuning, put
+from pages.common.session.actuator import Actuator
+from pages.common.session.cascade import Cascade
+from pages.common.session.design import Design
+from pages.common.session.excitation import Excitation
+from pages.common.session.fields import put
 from pages.common.session.home import EXPORTED, LANGUAGES, ROUNDINGS, Home
 from pages.common.session.loops import Entry, Loops
 from pages.common.session.sheet import TIME_UNITS, Sheet
+from pages.common.session.tuning import Tuning
 from simc_core import IController, IdealPid, ParallelPid, Plant, SeriesPid
 from simc_core.plants.step_facts import SettlingFacts, SlopeFacts
 

@@ -13,7 +13,7 @@ from scipy.interpolate import BarycentricInterpolator
 from pages.common.live.kit.packing import pack
 from pages.common.live.modules import bundled
 from simc_core import Loop, Plant, margins
-from simc_core.cascade.design import simc_cascade
+from simc_core.cascade.by_simc import simc_cascade
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.studies.tau_table import first_rows, stencil
 

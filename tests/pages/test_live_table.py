@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from pages.common.live.tuning import table
-from pages.common.session.design import Excitation, Tuning
+from pages.common.session.excitation import Excitation
 from pages.common.session.sheet import Sheet
+from pages.common.session.tuning import Tuning
 from pages.common.studies.single import study
 from simc_core import Plant
 from simc_core.errors import SimcError

@@ -6,10 +6,11 @@ from dataclasses import replace
 import pytest
 
 from pages.common.session import project, state
-from pages.common.session.design import Design, Tuning
+from pages.common.session.design import Design
 from pages.common.session.loops import MOST_LOOPS, Entry, Loops
 from pages.common.session.sheet import Sheet
 from pages.common.session.state import ANSWERED
+from pages.common.session.tuning import Tuning
 from simc_core import InvalidParameter, Plant
 from tests.pages.tools import address, run_page
 

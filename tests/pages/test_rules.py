@@ -9,7 +9,8 @@ from pages.common.rules import words
 from pages.common.rules.plane import ground
 from pages.common.rules.table import Question, question_of, rows_of
 from pages.common.session.compared import OPTIMAL, USUAL, Compared
-from pages.common.session.design import Design, in_time_unit
+from pages.common.session.design import Design
+from pages.common.session.time_unit import in_time_unit
 from pages.common.studies.single import attempt, present_study
 from simc_core import RULES, IdealPid, InvalidParameter, Plant, SeriesPid, parse_plant
 from tests.pages.tools import address, run_page, texts

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pages.common.session import links
-from pages.common.session.design import in_time_unit
+from pages.common.session.time_unit import in_time_unit
 from pages.common.take_home.operating_points import points_of, schedule_code, schedule_csv, schedule_of, table_of
 from simc_core import InvalidParameter
 from tests.pages.tools import address, run_page, texts

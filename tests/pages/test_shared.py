@@ -7,7 +7,7 @@ from threading import Barrier, Event
 import pytest
 
 from pages.common.live.kit.held import TABLES
-from pages.common.session.design import Tuning
+from pages.common.session.tuning import Tuning
 from pages.common.shared import Shared, shared
 from pages.common.studies.single import study
 from simc_core import Plant

@@ -7,8 +7,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pages.common.parts.units import unit_of
-from pages.common.session.design import Actuator, Design, Tuning, in_time_unit, put
+from pages.common.session.actuator import Actuator
+from pages.common.session.design import Design
+from pages.common.session.fields import put
 from pages.common.session.sheet import Sheet
+from pages.common.session.time_unit import in_time_unit
+from pages.common.session.tuning import Tuning
 from pages.common.studies.single import study
 from simc_core import IdealPid, InvalidParameter, Plant, SeriesPid, parse_plant
 from simc_core.plants.step_facts import SettlingFacts, SlopeFacts

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from pages.common.session import links, project
-from pages.common.session.design import Design, in_time_unit
+from pages.common.session.design import Design
 from pages.common.session.loops import Entry, Loops
 from pages.common.session.record import Origin
+from pages.common.session.time_unit import in_time_unit
 from pages.common.studies.uncertain import fastest
 from simc_core import FirstOrderDelay, Loop, Plant, Uncertainty, margins, ms_of_plants, parse_plant, simc
 from tests.pages.tools import address, run_page, texts

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from simc_core import InvalidParameter, Loop, Plant, Scenario, SeriesPid, simulate
-from simc_core.cascade.design import CascadeLoop
+from simc_core.loops.nested import CascadeLoop
 from simc_core.simulation.actuator.actuation import Actuation, Inputs
 from simc_core.simulation.actuator.continuous import actuated
 from tests.oracles.high_precision import course

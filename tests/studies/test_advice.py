@@ -5,18 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from simc_core import (
-    FirstOrderDelay,
-    IController,
-    IntegratingDelay,
-    OscillatingDelay,
     Plant,
     RuleEnds,
     Scenario,
-    SeriesPid,
     SimcError,
     performance,
     simc,
@@ -25,7 +18,7 @@ from simc_core import (
 from simc_core.plants.step_response import plant_step
 from simc_core.reduction.equal_peak import EQUAL_MS, at_equal_peak
 from simc_core.studies import advice as guards
-from simc_core.studies.advice import advice, slow_oscillation
+from simc_core.studies.advice import advice
 from simc_core.studies.tuned import tuned
 from tests.oracles.random_plants import random_plants
 
@@ -126,26 +119,6 @@ def test_the_phase_margin_that_hides_a_large_peak():
     design = tuned(Plant(1, 1, (8, 1)), order=2, tau_c=0.45)
     assert design.margins.PM_deg > 45
     assert "phase margin" in guards.large_Ms(design).text
-
-
-@given(st.floats(0.01, 100), st.floats(0.01, 100), st.floats(0.01, 100), st.floats(0.01, 100))
-def test_the_rule_itself_never_oscillates_slowly(k, theta, tau1, tau_c):
-    """tau_I = 4 (tau_c + theta) gives Kc k' tau_I = 4, the limit."""
-    for model in (FirstOrderDelay(k, theta, tau1), IntegratingDelay(k, theta)):
-        assert slow_oscillation(model, simc(model, tau_c)) is None
-
-
-def test_slow_oscillation():
-    """[SG12]: Kc tau_I >= 4/k'."""
-    model, controller = IntegratingDelay(0.5, 1), SeriesPid(0.5, 8)
-    found = slow_oscillation(model, controller)
-    assert found.headline == "Kc k' tau_I = 2, should be at least 4"
-    assert "Kc tau_I = 8" in found.remedy
-    assert slow_oscillation(model, replace(controller, **found.change)) is None
-    assert slow_oscillation(model, SeriesPid(0.1, math.inf)) is None
-    assert slow_oscillation(model, IController(1)) is None
-    assert slow_oscillation(FirstOrderDelay(1, 1, 2), SeriesPid(0.1, 2)) is None  # cancels the lag: no oscillation
-    assert slow_oscillation(OscillatingDelay(1, 1, 2, 0.1), SeriesPid(0.1, 2)) is None
 
 
 DESIGNS = [(i, plant) for i, (_, plant) in enumerate(random_plants(240))]

@@ -8,7 +8,7 @@ from pages.common.parts.quantities import QUANTITIES
 from pages.common.parts.strip import Reading, cell_html, gain_margin, peak_html, reading
 from pages.common.parts.symbols import symbols
 from pages.common.studies.cascade import CascadeStudy, speed_symbol, verdict
-from simc_core.cascade.design import SEPARATE
+from simc_core.cascade.by_simc import SEPARATE
 from simc_core.notation import number
 from simc_core.sensitivity.margins_of_response import Margins
 

@@ -11,7 +11,8 @@ from pages.common.parts.settings_text import form_shown
 from pages.common.parts.units import time_text
 from pages.common.plant.entry import plant_entry
 from pages.common.session import state
-from pages.common.session.design import KINDS, METHODS, Cascade
+from pages.common.session.cascade import METHODS, Cascade
+from pages.common.session.tuning import KINDS
 from pages.common.studies.cascade import USUAL_MS, CascadeStudy, of_row, scale, speed_symbol
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.cascade.pairs import ROWS, PairRow

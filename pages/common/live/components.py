@@ -11,6 +11,7 @@ from pages.common.live.kit.packing import pack
 from pages.common.live.modules import bundled
 from pages.common.parts.qr import qr_svg
 from pages.common.session import state
+from pages.common.session.lecture import asked_lecture
 from simc_core.figures import palette
 
 HERE = Path(__file__).parent
@@ -66,7 +67,7 @@ def show(name: str, key: str, data: bytes, take: Callable[[Mapping], None]) -> i
 
 def _lecture(name: str, key: str) -> None:
     """What the lecture view is told: that a link asks for it, and its own link where it asked for that."""
-    if place := state.asked_lecture():
+    if place := asked_lecture():
         message(key=f"{key}_lecture", data=pack({"kind": "lecture", "to": name} | place_of(place), {}))
     if place := state.memory(f"{key}_place", dict):
         link = state.address(**place, lecture="1")

@@ -1,6 +1,7 @@
 """A row of a list as a design, to go on with it on the other pages. Pure: no streamlit."""
 
-from pages.common.session.design import Design, put
+from pages.common.session.design import Design
+from pages.common.session.fields import put
 from pages.common.session.sheet import LONGEST
 from simc_core import Result, SimcError
 from simc_core.many.request import number, read_request

@@ -15,7 +15,7 @@ from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import symbols
 from pages.common.parts.units import unit_of, with_unit
 from pages.common.session import state
-from pages.common.session.design import PLACES
+from pages.common.session.fields import PLACES
 from pages.common.session.links import number_text
 from simc_core.errors import SimcError
 from simc_core.numbers import read_number

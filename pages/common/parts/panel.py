@@ -10,6 +10,7 @@ from pages.common.parts.large import large
 from pages.common.parts.ready_figure import ReadyFigure
 from pages.common.parts.units import axes_named
 from pages.common.session import state
+from pages.common.session.lecture import lecturing
 from simc_core.figures import Figure, config
 
 
@@ -44,7 +45,7 @@ def show(figure: Figure, key: str, alt: str, picked: Callable[[str], None] | Non
     name = f"figure_{key}"
     pick = {"on_select": lambda: picked(name), "selection_mode": "points"} if picked else {}
     named = axes_named(figure, state.design_now().sheet)
-    if state.lecturing():
+    if lecturing():
         named = large(named)
     st.plotly_chart(ReadyFigure(named), key=name, config=config(key), alt=in_words(alt, named), **pick)
 

@@ -11,7 +11,8 @@ from pages.common.rules.curves import PRESENT_NAME
 from pages.common.rules.table import Question, best_beside, title_of
 from pages.common.session import state
 from pages.common.session.compared import OPTIMAL
-from pages.common.session.design import MOST_PINS, Design, Excitation
+from pages.common.session.design import MOST_PINS, Design
+from pages.common.session.excitation import Excitation
 from pages.common.shell import header
 from pages.common.studies.single import Study, study_of_settings, time_responses
 from simc_core import RULES

@@ -12,7 +12,8 @@ from pages.common.rules.plane import ground as ground_of
 from pages.common.rules.table import Question, frame, key_of, rows_of, shown, title_of
 from pages.common.session import state
 from pages.common.session.compared import KINDS, OPTIMAL, PRESENT, USUAL
-from pages.common.session.design import Design, Excitation
+from pages.common.session.design import Design
+from pages.common.session.excitation import Excitation
 from pages.common.studies.measures import EXAMPLES, MEANINGS, MEASURES
 from pages.common.studies.single import Study, study_of_settings
 from simc_core.figures import trade_off_figure
@@ -188,10 +189,10 @@ def chosen_of(rows: Sequence[Row], design: Design) -> Row | None:
 
 def which_picture() -> str:
     """One of PICTURES."""
+    state.begin_widget("rules_picture", PICTURES[0])
     return st.segmented_control(
         "Picture",
         PICTURES,
-        default=PICTURES[0],
         required=True,
         key="rules_picture",
         persist_state="session",

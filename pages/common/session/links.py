@@ -27,7 +27,8 @@ from dataclasses import dataclass
 from functools import cache
 from urllib.parse import quote, urlencode
 
-from pages.common.session.design import PLACES, Design, Tuning, get, put
+from pages.common.session.design import Design
+from pages.common.session.fields import PLACES, get, put
 from pages.common.session.record import (
     bad_of,
     bad_text,
@@ -36,6 +37,7 @@ from pages.common.session.record import (
     uncertainty_from,
     uncertainty_text,
 )
+from pages.common.session.tuning import Tuning
 from simc_core import Plant, parse_plant
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError

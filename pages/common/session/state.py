@@ -20,15 +20,17 @@ import streamlit as st
 from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileManager
 from streamlit.runtime.scriptrunner import get_script_run_ctx
 
-from pages.common.session import links, project
-from pages.common.session.design import Cascade, Design, Tuning, get, put
+from pages.common.session import links
+from pages.common.session.cascade import Cascade
+from pages.common.session.design import Design
+from pages.common.session.fields import get, put
 from pages.common.session.links import Ignored
 from pages.common.session.loops import Loops
+from pages.common.session.tuning import Tuning
 from simc_core import Plant
 
-ANSWERED = (
-    1.0  # seconds in which the browser has heard what a run put into a widget; nobody types the old value anew in it
-)
+# Seconds in which the browser has heard what a run put into a widget; nobody types the old value anew in it.
+ANSWERED = 1.0
 ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
 SENT_AGAIN = 5.0  # seconds for which a value put into a widget may be overtaken; the first run of a server is slow
 
@@ -43,7 +45,7 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
     if view:
         st.session_state["asked_view"] = view
     if lecture:
-        st.session_state["asked_lecture"] = {"view": view, "panel": panel, "on": "yes"}
+        make_last("asked_lecture", {"view": view, "panel": panel, "on": "yes"})
     if beside != st.session_state.get("beside", ()):  # another page
         st.session_state["beside"] = beside
         st.session_state["place"], st.session_state["stands_for"] = {}, None
@@ -105,54 +107,28 @@ def begin_loop(plant: Plant, mine: bool) -> None:
     """
     fresh = replace(Design(), plant=plant, form=value("form"))
     take_loops(loops().with_design(fresh) if _untouched() else loops().added(fresh))
-    _first_seen()[loops().entries[loops().current].id] = Design() if mine else fresh
+    first_seen()[loops().entries[loops().current].id] = Design() if mine else fresh
 
 
 def add_loop(design: Design) -> None:
     """Another loop of the list, in use from now on, which is kept. Raises InvalidParameter where the list is full."""
     take_loops(loops().added(design))
-    _first_seen()[loops().entries[loops().current].id] = Design()
+    first_seen()[loops().entries[loops().current].id] = Design()
 
 
-def _first_seen() -> dict[str, Design]:
-    """Each loop as this session first had it."""
+def first_seen() -> dict[str, Design]:
+    """Each loop by its id, as this session first had it."""
     return st.session_state.setdefault("first_seen", {})
+
+
+def opened_by_link() -> bool:
+    """Whether this visit began with a link to a design."""
+    return st.session_state.get("opened", False)
 
 
 def _untouched() -> bool:
     entry = loops().entries[loops().current]
-    return entry.design in (_first_seen().get(entry.id), Design())
-
-
-def join_kept(text: str) -> None:
-    """The loops that the browser has kept from earlier visits, once a session; what cannot be read is left alone."""
-    if asked_browser():
-        return
-    st.session_state["kept_ids"] = frozenset()
-    kept, _ = project.load(text.encode(errors="surrogatepass"))  # half a character is refused there
-    if kept is not None:
-        st.session_state["kept_ids"] = kept.ids
-        take_loops(loops().joined(kept, st.session_state["opened"]))
-
-
-def asked_browser() -> bool:
-    """Whether the browser has told what it keeps."""
-    return "kept_ids" in st.session_state
-
-
-def to_keep() -> tuple[str, list[str]]:
-    """What the browser is to keep, as a project, and the ids that this session has had.
-
-    A loop that was only opened by a link, or is the one every visit begins with, is not kept before it is changed.
-    """
-    known = st.session_state["kept_ids"] | loops().ids
-    first = _first_seen()
-    for entry in loops().entries:
-        first.setdefault(entry.id, entry.design)
-    mine = tuple(e for e in loops().entries if e.id in st.session_state["kept_ids"] or e.design != first[e.id])
-    st.session_state["kept_ids"] |= {entry.id for entry in mine}
-    current = next((i for i, e in enumerate(mine) if e.id == loops().entries[loops().current].id), 0)
-    return (project.dump(Loops(mine, current)) if mine else ""), sorted(known)
+    return entry.design in (first_seen().get(entry.id), Design())
 
 
 def _keep(changed: Loops) -> None:
@@ -285,6 +261,12 @@ def set_widget(key: str, thing: Any) -> None:
             del sent[key]
 
 
+def begin_widget(key: str, thing: Any) -> None:
+    """What the widget of this key holds at first. Streamlit objects to a `default` beside `set_widget`."""
+    if key not in st.session_state:
+        set_widget(key, thing)
+
+
 def run_ended() -> None:
     """The router tells that a run has ended: what it put into widgets was sent, what they report now is new."""
     st.session_state["replaced"] = {}
@@ -303,31 +285,6 @@ def overtaken(key: str) -> bool:
 def asked_view() -> str:
     """The view that a link asked for, told once; empty for none."""
     return st.session_state.pop("asked_view", "")
-
-
-def asked_lecture(leave: Callable[[str], bool] = lambda view: False) -> dict[str, str]:
-    """View and panel of the lecture that a link asked for, told once; empty for none.
-
-    leave: whether a lecture of this view is for somebody else, who asks later.
-    """
-    if leave(st.session_state.get("asked_lecture", {}).get("view", "")):
-        return {}
-    return st.session_state.pop("asked_lecture", {})
-
-
-def lecturing() -> dict[str, str]:
-    """The lecture view of a page without an instrument: which page, view and panel; empty where there is none."""
-    return lasting("lecture_on", dict)
-
-
-def lecture_is(on: dict[str, str]) -> None:
-    """Begin or, with nothing, end it."""
-    make_last("lecture_on", on)
-
-
-def ask_lecture() -> None:
-    """As a link that says lecture=1."""
-    st.session_state["asked_lecture"] = {"view": "", "panel": "", "on": "yes"}
 
 
 def ignored() -> list[Ignored]:

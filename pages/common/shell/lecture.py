@@ -9,6 +9,7 @@ import streamlit as st
 
 from pages.common.parts.qr import qr_svg
 from pages.common.session import state
+from pages.common.session.lecture import ask_lecture, asked_lecture, lecture_is, lecturing
 
 HERE = Path(__file__).parent
 INSTRUMENTS = ("tuning", "cascade", "lessons")
@@ -26,12 +27,12 @@ def offer() -> None:
 
 def lecture(place: str) -> None:
     """The page for the last row, where a link or the button asked for it."""
-    asked = state.asked_lecture(leave=lambda view: place in INSTRUMENTS and view in THEIR_VIEWS)
+    asked = asked_lecture(leave=lambda view: place in INSTRUMENTS and view in THEIR_VIEWS)
     if asked:
-        state.lecture_is({"place": place} | asked)
-    on = state.lecturing()
+        lecture_is({"place": place} | asked)
+    on = lecturing()
     if on and on["place"] != place:
-        state.lecture_is({})  # another page: it ends
+        lecture_is({})  # another page: it ends
     if on.get("place") != place:
         return
     panel = on.get("panel", "")
@@ -62,8 +63,8 @@ def _alone(panel: str) -> str:
 
 
 def _begin() -> None:
-    state.ask_lecture()
+    ask_lecture()
 
 
 def _leave() -> None:
-    state.lecture_is({})
+    lecture_is({})

@@ -6,6 +6,7 @@ import streamlit as st
 
 from pages.common.session import state
 from pages.common.session.design import Design
+from pages.common.session.kept import asked_browser, join_kept, to_keep
 from pages.common.session.loops import MOST_LOOPS
 
 _storage = st.components.v2.component(
@@ -32,15 +33,15 @@ def loops_menu() -> None:
 
 def keep() -> None:
     """Ask the browser once what it keeps; after that tell it."""
-    if not state.asked_browser():
+    if not asked_browser():
         _storage(key="storage", data={"ask": True}, on_kept_change=_take_kept)
         return
-    mine, known = state.to_keep()
+    mine, known = to_keep()
     _storage(key="storage", data={"mine": mine, "known": known}, on_kept_change=_take_kept)
 
 
 def _take_kept() -> None:
-    state.join_kept(str(state.widget("storage")["kept"]["text"]))
+    join_kept(str(state.widget("storage")["kept"]["text"]))
 
 
 def _switch() -> None:

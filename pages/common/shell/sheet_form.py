@@ -4,8 +4,8 @@ import streamlit as st
 
 from pages.common.parts.number_field import design_number
 from pages.common.session import state
-from pages.common.session.design import in_time_unit
 from pages.common.session.sheet import LONGEST, TIME_UNITS
+from pages.common.session.time_unit import in_time_unit
 from simc_core.errors import SimcError
 
 SIGNALS = (("PV", "Measurement PV"), ("OP", "Output OP"))

@@ -4,8 +4,10 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from pages.common.session.design import Cascade
-from simc_core.cascade.design import SEPARATE, CascadeDesign, simc_cascade, single_loop, synthesis_cascade
+from pages.common.session.cascade import Cascade
+from simc_core.cascade.by_simc import SEPARATE, simc_cascade, single_loop
+from simc_core.cascade.by_synthesis import synthesis_cascade
+from simc_core.cascade.design import CascadeDesign
 from simc_core.cascade.pairs import PairRow
 from simc_core.cascade.verdict import CascadeVerdict, cascade_verdict
 from simc_core.certificate.verdict import NestedStability, stability

@@ -6,7 +6,9 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from pages.common.session.design import Design, Excitation, Tuning
+from pages.common.session.design import Design
+from pages.common.session.excitation import Excitation
+from pages.common.session.tuning import Tuning
 from pages.common.shared import shared
 from simc_core.controllers.forms import Controller
 from simc_core.errors import NotStable, SimcError

@@ -5,7 +5,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from pages.common.session.design import Excitation, Tuning
+from pages.common.session.excitation import Excitation
+from pages.common.session.tuning import Tuning
 from simc_core import Plant, TimeResponse, Uncertainty, ms_of_plants, simulate
 from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError

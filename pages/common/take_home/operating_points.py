@@ -4,10 +4,12 @@ from collections.abc import Callable
 from functools import lru_cache
 
 from pages.common.parts.units import with_plain_unit
-from pages.common.session.design import Design, Tuning, in_time_unit
+from pages.common.session.design import Design
 from pages.common.session.home import Home, Point
 from pages.common.session.links import number_text
 from pages.common.session.sheet import Sheet
+from pages.common.session.time_unit import in_time_unit
+from pages.common.session.tuning import Tuning
 from simc_core import GainSchedule, ScheduleTable, export_schedule, read_numbers, simc
 from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from pages.common.parts.units import time_text
-from pages.common.session.design import Design, put
+from pages.common.session.design import Design
+from pages.common.session.fields import put
 from pages.common.studies.single import Study, judged_settings, present_study
 from pages.common.take_home.proof import longest_period, sampled
 from pages.common.take_home.typed import typed_into

@@ -23,12 +23,11 @@ def drag(plant: Plant, present: Study, behind: list[tuple[str, Study]]) -> str:
     behind: designs that are drawn behind, by name.
     """
     offered = [name for name in KNOBS if name != "tau_c" or present.tuned]
-    if state.widget("drag", offered[0]) not in offered:
+    if state.widget("drag") not in offered:
         state.set_widget("drag", offered[0])
     chosen = st.segmented_control(
         "Drag",
         offered,
-        default=offered[0],
         required=True,
         format_func=KNOBS.get,
         key="drag",

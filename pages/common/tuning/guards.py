@@ -9,7 +9,8 @@ from pages.common.session import state
 from pages.common.studies.single import Study
 from simc_core.certificate.poles import ClosedLoopPole, dominant_poles
 from simc_core.notation import number
-from simc_core.studies.advice import Advice, advice, advice_on_settings, in_words
+from simc_core.studies.advice import Advice, advice, in_words
+from simc_core.studies.own_settings import advice_on_settings
 
 PLACES = {"error": st.error, "warning": st.warning, "note": st.caption}
 
@@ -20,16 +21,16 @@ def show(study: Study) -> None:
         origin = state.design_now().origin
         if origin is not None and origin.gains:
             st.warning(gains_apart(origin))
-        for item in advice(study.tuned) if study.tuned else advice_on_settings(study.loop.plant, study.controller):
+        for item in advice(study.tuned) if study.tuned else advice_on_settings(study.loop, study.margins):
             proposal(item)
 
 
 def proposal(item: Advice) -> None:
     """One piece of advice; what it proposes is a button."""
     PLACES[item.level](words(item))
-    if item.change and "Kc" not in item.change:  # settings are typed, not made from choices
+    if item.change:
         st.button(
-            spoken(in_words(item.change)),
+            "Take these settings" if "own" in item.change else spoken(in_words(item.change)),
             key=f"remedy_{item.quantity}",
             type="tertiary",
             icon=":material/arrow_forward:",

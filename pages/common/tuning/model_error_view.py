@@ -10,7 +10,8 @@ from pages.common.parts.panel import show
 from pages.common.parts.symbols import symbols
 from pages.common.parts.units import time_text
 from pages.common.session import state
-from pages.common.session.design import Design, Excitation
+from pages.common.session.design import Design
+from pages.common.session.excitation import Excitation
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study
 from pages.common.tuning.measured_error_view import measured_error_view

@@ -1,7 +1,7 @@
 """The figures of the tuning page: four panels side by side, on a narrow screen one at a time; Bode beside them."""
 
 from pages.common.parts.panel import Panel, field, show
-from pages.common.session.design import Excitation
+from pages.common.session.excitation import Excitation
 from pages.common.studies.single import Study, common_grid, frequency_responses, time_responses
 from simc_core.figures import (
     input_figure,

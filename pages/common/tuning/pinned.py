@@ -9,7 +9,8 @@ from pages.common.parts.settings_text import UNITS as SETTING_UNITS
 from pages.common.parts.settings_text import sizes
 from pages.common.parts.units import unit_of, with_plain_unit
 from pages.common.session import state
-from pages.common.session.design import MOST_PINS, Tuning
+from pages.common.session.design import MOST_PINS
+from pages.common.session.tuning import Tuning
 from pages.common.studies import measures
 from pages.common.studies.single import Study, study, study_of_settings
 from pages.common.tuning.source import LABELS

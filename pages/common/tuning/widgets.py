@@ -14,8 +14,8 @@ from pages.common.parts.settings_text import structure as formula
 from pages.common.parts.sources import linked
 from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
-from pages.common.session.design import KINDS
 from pages.common.session.sheet import Sheet
+from pages.common.session.tuning import KINDS
 from pages.common.studies.single import Study
 from pages.common.tuning.source import LABELS, form_control
 from simc_core.controllers.forms import Controller

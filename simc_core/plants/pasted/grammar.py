@@ -9,14 +9,11 @@ atom     = number | "s" | "(" fraction ")" | "exp" "(" sum ")" | "e^" exponent |
 """
 
 import math
-import re
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 from simc_core import checks
-from simc_core.errors import InvalidParameter, ParseError
-from simc_core.numbers import read_exact_numbers
-from simc_core.numbers.one import decimal
+from simc_core.errors import ParseError
 from simc_core.numbers.refusal import quoted
 from simc_core.numbers.signs import LOWERED
 from simc_core.plants.parse_values import (
@@ -36,6 +33,7 @@ from simc_core.plants.parse_values import (
     times,
     too_large,
 )
+from simc_core.plants.pasted.number_token import coefficients, number_written
 from simc_core.plants.pasted.shapes import (
     check_lost_powers,
     check_lost_tens,
@@ -45,11 +43,10 @@ from simc_core.plants.pasted.shapes import (
     with_bar,
 )
 from simc_core.plants.pasted.sums_of_delays import advice
-from simc_core.plants.pasted.tokens import Token, bare, superscript_delay, tokens
+from simc_core.plants.pasted.tokens import Token, bare, fault, superscript_delay, tokens
 
 DEEPEST = 50  # nested brackets
 HIGHEST_POWER = 40
-LARGEST_EXPONENT = 300  # of a number with a decimal exponent
 CLOSING = {"(": ")", "[": "]", "{": "}"}
 EXPONENTIALS = ("exp", "e", "delay")
 ATOMS = ("number", "s", "name", "frac", "sqrt", "pi", "call", "list", *EXPONENTIALS)
@@ -110,8 +107,7 @@ class Reader:
         return None
 
     def fault(self, message: str, at: int | None = None) -> ParseError:
-        at = self.token.at if at is None else at
-        return ParseError(f"{message} (position {at + 1})", self.text, at)
+        return fault(message, self.text, self.token.at if at is None else at)
 
     def fraction(self) -> Value:
         value = self.sum()
@@ -232,7 +228,7 @@ class Reader:
         self.next += 1
         match token.kind:
             case "number":
-                return constant(self.number(token))
+                return constant(number_written(self.text, token, self.token))
             case "s":
                 return Value((S,))
             case "name":
@@ -248,7 +244,7 @@ class Reader:
             case "frac":
                 return self.divided(self.group(), self.group(), token.at)
             case "list":
-                return self.coefficients(token)
+                return self.checked(polynomial(coefficients(self.text, token)), token.at)
             case "call":
                 return self.call(self, token)
             case "sign" if token.text in CLOSING:
@@ -264,41 +260,6 @@ class Reader:
         name = bare(token.text)
         self.used.add(name)
         return self.names[name]
-
-    def number(self, token: Token) -> Fraction:
-        digits, _, exponent = token.text.lower().partition("e")
-        if exponent and abs(int(exponent[:6])) > LARGEST_EXPONENT:
-            raise self.fault(f"a number must be below 1e{LARGEST_EXPONENT}, found {token.text[:20]}", token.at)
-        following = self.token
-        if following.kind == "number" and following.at == token.at + len(token.text):
-            raise self.fault(
-                f"'{quoted(token.text + following.text)}' is not a number: write one decimal point and no other",
-                token.at,
-            )
-        if " " in digits and "+" not in self.text and " " in self.text[token.at : token.at + len(token.text)]:
-            # a link whose + was not written %2B has lost all of them: 1 200s may have been 1+200s
-            raise self.fault(
-                f"'{quoted(token.text)}' can be read in two ways: write {quoted(digits.replace(' ', ''))} without a "
-                "blank, or put + between",
-                token.at,
-            )
-        try:
-            return decimal("the number", digits) * Fraction(10) ** int(exponent or 0)
-        except InvalidParameter as error:
-            raise self.fault(str(error), token.at) from None
-
-    def coefficients(self, token: Token) -> Value:
-        if re.fullmatch(r"\[\s*[+-]?\d+,\d+\s*\]", token.text):
-            raise self.fault(
-                f"'{token.text}' can be read in two ways: write {token.text.replace(',', '.')} for one number, "
-                f"{token.text.replace(',', ' ')} for two coefficients",
-                token.at,
-            )
-        try:
-            found = read_exact_numbers("the list", token.text)
-        except InvalidParameter as error:
-            raise self.fault(str(error), token.at) from None
-        return self.checked(polynomial(found), token.at)
 
     def square_root(self, token: Token) -> Value:
         argument = self.atom() if self.token.kind == "number" else self.group()

@@ -6,6 +6,7 @@ from simc_core.errors import ParseError
 from simc_core.numbers.refusal import quoted
 from simc_core.plants.parse_values import ONE, Polynomial, Value
 from simc_core.plants.pasted.statements import Statement
+from simc_core.plants.pasted.tokens import fault
 
 GAINS = ("k", "km", "kp", "k0", "ks", "gain", "processgain")
 DELAYS = (
@@ -58,4 +59,4 @@ def from_parameters(text: str, given: dict[str, tuple[Fraction, Statement]]) -> 
 
 
 def _fault(text: str, message: str, part: Statement) -> ParseError:
-    return ParseError(f"{message} (position {part.at + 1})", text, part.at)
+    return fault(message, text, part.at)

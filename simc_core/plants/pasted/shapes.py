@@ -4,7 +4,7 @@ import re
 from itertools import pairwise
 
 from simc_core.errors import ParseError
-from simc_core.plants.pasted.tokens import Token
+from simc_core.plants.pasted.tokens import Token, fault
 
 SIGNS = ("+", "-", "*", "/", "^", "**")
 
@@ -55,9 +55,9 @@ def check_lost_powers(text: str, row: list[Token]) -> None:
         signs = ("+", "-")
         in_sum = row[after + 1].text in signs or (i > 1 and row[i - 1].text in signs and row[i - 2].text != "(")
         if torn or not in_sum:
-            raise ParseError(
+            raise fault(
                 f"'{token.text}' before s can be read in two ways: did you mean {found[1]} e^(-{time}s)? "
-                f"If it is a coefficient, write it without e (position {token.at + 1})",
+                "If it is a coefficient, write it without e",
                 text,
                 token.at,
             )
@@ -70,16 +70,16 @@ def check_lost_tens(text: str, row: list[Token]) -> None:
             continue
         tight = ten.text == "10" and after.text == "-" and after.at == ten.at + 2 and last.at == ten.at + 3
         if tight and last.kind == "number":
-            raise ParseError(
+            raise fault(
                 f"'10-{last.text}' after a multiplication can be read in two ways: write 10^-{last.text} if it is a "
-                f"power of ten, or 10 - {last.text} with blanks if it is a difference (position {ten.at + 1})",
+                f"power of ten, or 10 - {last.text} with blanks if it is a difference",
                 text,
                 ten.at,
             )
         if text[times.at] not in "*." and ten.text[2:].isdigit():
-            raise ParseError(
+            raise fault(
                 f"'{ten.text}' after a multiplication can be read in two ways: write 10^{ten.text[2:]} if it is a "
-                f"power of ten, or * before it if it is not (position {ten.at + 1})",
+                "power of ten, or * before it if it is not",
                 text,
                 ten.at,
             )
@@ -96,9 +96,9 @@ def check_raised(text: str, plain: str, row: list[Token]) -> None:
             (after.kind == "s" and token.kind == "number") or (token.kind == "s" and after.text in ("+", "-"))
         ):
             at = after.at if after.kind == "s" else token.at
-            raise ParseError(
+            raise fault(
                 "the wide gap at this s can be a power on a line of its own: write s^2 for s squared, and 2 s with one "
-                f"blank (position {at + 1})",
+                "blank",
                 text,
                 at,
             )
@@ -144,11 +144,7 @@ def check_one_variable(text: str, row: list[Token]) -> None:
     if len(variables) > 1:
         first, second, *_ = variables
         at = variables[second].at
-        raise ParseError(
-            f"there are two variables, {first} and {second}: write one, or give {second} a value (position {at + 1})",
-            text,
-            at,
-        )
+        raise fault(f"there are two variables, {first} and {second}: write one, or give {second} a value", text, at)
 
 
 def _in_exponent(row: list[Token], at: int) -> bool:

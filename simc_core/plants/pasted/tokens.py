@@ -16,6 +16,11 @@ class Token(NamedTuple):
     at: int
 
 
+def fault(message: str, text: str, at: int) -> ParseError:
+    """The refusal of what stands at this place of the text."""
+    return ParseError(f"{message} (position {at + 1})", text, at)
+
+
 RAISED = SUPERSCRIPTS[:10]
 LETTER = rf"(?:(?![{RAISED}½¼¾ˢᵖ])[^\W\d_])"
 WITH_POINT = r"[1-9]\d{0,2}(?:(?:,\d{3})+\.|(?:\.\d{3})+,)\d+"
@@ -106,7 +111,7 @@ def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str])
         found = TOKEN.match(plain, at, stop)
         if not found:
             hint = f": {SIGN_HINTS[text[at]]}" if text[at] in SIGN_HINTS else ""
-            raise ParseError(f"'{text[at]}' is not part of a transfer function{hint} (position {at + 1})", text, at)
+            raise fault(f"'{text[at]}' is not part of a transfer function{hint}", text, at)
         kind, written = found.lastgroup, found[0]
         assert kind is not None  # every alternative of TOKEN has a name
         if kind == "list" and not _is_list(written):
@@ -196,14 +201,14 @@ def _closing(text: str, plain: str, at: int) -> int:
 def _lost_exponent(text: str, plain: str, at: int, end: int) -> ParseError:
     lost = re.match(r"\s*-\s*([\d.,]*)\s*\*?\s*[sp]", plain[end:])
     hint = f": did you mean e^(-{lost[1]}s)?" if lost else ": write e^{-3s} or exp(-3s)"
-    return ParseError(f"e must have an exponent{hint} (position {at + 1})", text, at)
+    return fault(f"e must have an exponent{hint}", text, at)
 
 
 def _unknown(text: str, known: str, written: str, at: int) -> ParseError:
     shown = written if len(written) <= 30 else written[:27] + "..."
     key = known.rpartition(".")[2]
     hint = HINTS.get(key, HINTS.get(key.lower(), A_NAME if len(bare(written)) <= 2 else IN_S))
-    return ParseError(f"'{shown}' is not known: {hint} (position {at + 1})", text, at)
+    return fault(f"'{shown}' is not known: {hint}", text, at)
 
 
 def superscript_delay(written: str) -> int:

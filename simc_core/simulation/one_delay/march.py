@@ -33,6 +33,7 @@ from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.one_delay.closed_element import END, PARTS, ClosedElements, Z
 from simc_core.simulation.one_delay.element_sizes import ElementSizes, levels
+from simc_core.simulation.one_delay.final_values import final_values
 from simc_core.simulation.one_delay.limits import (
     LIKELY,
     LOOK,
@@ -73,16 +74,6 @@ def march(plant: Plant, forms: Sequence[ParallelPid], t_end: float | None, most:
             if marching.arrives():
                 break
     return course(marching.batches, [control.at_rest for control in marching.controls[: marching.n_left]])
-
-
-def final_values(plant: Plant, form: ParallelPid) -> np.ndarray:
-    """Where y and u (rows) end after unit steps of r and of d (columns), if the loop is stable."""
-    if form.Ki:
-        return np.array([[1.0, 0.0], [0.0 if plant.integrators else 1 / plant.k, -1.0]])
-    if plant.integrators:
-        return np.array([[form.b, 1 / form.Kp if form.Kp else math.inf], [0.0, -1.0]])
-    S = 1 / (1 + plant.k * form.Kp)
-    return np.array([[form.b * (1 - S), plant.k * S], [form.b * form.Kp * S, S - 1]])
 
 
 def check(plant: Plant, forms: Sequence[ParallelPid]) -> None:

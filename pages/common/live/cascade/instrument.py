@@ -9,7 +9,7 @@ from pages.common.live.cascade import table as cascade_table
 from pages.common.live.cascade.table import LOOPS
 from pages.common.live.kit.held import Held
 from pages.common.session import state
-from pages.common.session.design import Cascade
+from pages.common.session.cascade import Cascade
 from pages.common.studies.cascade import study
 
 KEY = "live_cascade"

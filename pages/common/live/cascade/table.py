@@ -19,7 +19,7 @@ from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.parts.settings_text import UNITS, sizes
-from pages.common.session.design import Cascade
+from pages.common.session.cascade import Cascade
 from pages.common.session.sheet import Sheet
 from pages.common.studies.cascade import CascadeStudy, designed, scale
 from simc_core.cascade.design import CascadeDesign

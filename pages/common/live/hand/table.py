@@ -195,8 +195,10 @@ def values_of(subject: Subject) -> dict[str, float]:
     return {knob["name"]: knob["value"] for knob in knobs(subject)}
 
 
-def allowed(subject: Subject, values: dict) -> dict[str, float]:
+def allowed(subject: Subject, values: object) -> dict[str, float]:
     """Values that a browser sent, those of knobs only. Raises InvalidParameter for what is no number in range."""
+    if not isinstance(values, Mapping):
+        raise InvalidParameter(f"values must be those of the knobs by name, found {values!s:.20}")
     found = {}
     for knob in knobs(subject):
         value = values.get(knob["name"], knob["value"])

@@ -2,6 +2,7 @@
 
 import { measured } from "./curves.js";
 import { STEPS, text } from "./format.js";
+import { presses } from "./presses.js";
 import { escaped } from "./svg.js";
 
 export class Slider {
@@ -10,7 +11,13 @@ export class Slider {
    * moved(slider): while it moves.   released(slider): when it comes to rest.
    */
   constructor({ name, symbol, label }, { moved, released }) {
-    Object.assign(this, { name, moved, released, dragging: false, held: false, timer: 0 });
+    Object.assign(this, { name, moved, released, dragging: false, held: false });
+    this.pressed = presses(
+      (yes) => {
+        this.held = yes;
+      },
+      () => this.released(this),
+    );
     this.row = document.createElement("div");
     this.row.className = "top";
     this.row.innerHTML = `<div class="now"><span class="symbol"></span> = <output class="value">–</output></div>
@@ -148,13 +155,8 @@ export class Slider {
     }[event.key];
     if (to === undefined) return;
     event.preventDefault();
-    this.held = true;
+    this.pressed();
     this.move(to);
-    clearTimeout(this.timer); // a key held down is one release
-    this.timer = setTimeout(() => {
-      this.held = false;
-      this.released(this);
-    }, 150);
   }
 }
 

@@ -3,11 +3,11 @@
 import { LABELS, S_LINE, U, Y } from "../kit/curves.js";
 import { text } from "../kit/format.js";
 import { ALARM, Panel } from "../kit/panel.js";
+import { presses } from "../kit/presses.js";
 
 const UNSTABLE = "--simc-alarm-band";
 const NEAR = 14; // px, from a rule's point to the pointer that means it
 const STEP = 10 ** (1 / 40); // of an arrow key; a fifth of it with Shift
-const PATIENCE = 150; // ms after the last key of several
 
 export class PlanePanel extends Panel {
   /**
@@ -42,7 +42,7 @@ export class PlanePanel extends Panel {
       },
       scale,
     );
-    Object.assign(this, { plane, hand, timer: 0 });
+    Object.assign(this, { plane, hand, pressed: presses(hand.held, hand.released) });
     this.curves = [plane.region, plane.limit, ...plane.contours, plane.best, plane.path];
     this.plot.setAttribute("role", "group"); // not an image: there is something in it that one can move
     this.handle = document.createElement("div");
@@ -146,12 +146,7 @@ export class PlanePanel extends Panel {
     }[event.key];
     if (!to) return;
     event.preventDefault();
-    this.hand.held(true); // an answer to the last release must not take the point back
+    this.pressed();
     this.hand.moved(...to);
-    clearTimeout(this.timer); // a key held down is one release
-    this.timer = setTimeout(() => {
-      this.hand.held(false);
-      this.hand.released();
-    }, PATIENCE);
   }
 }

@@ -12,8 +12,9 @@ from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
 from pages.common.parts.settings_text import UNITS, form_shown, sizes
-from pages.common.session.design import Excitation, Tuning
+from pages.common.session.excitation import Excitation
 from pages.common.session.sheet import Sheet
+from pages.common.session.tuning import Tuning
 from pages.common.studies.single import Study
 from simc_core.algebra.factors import Factored
 from simc_core.certificate.verdict import stability

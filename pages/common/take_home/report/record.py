@@ -20,7 +20,8 @@ from simc_core.plants.step_facts import SlopeFacts, StepFacts
 from simc_core.published.sources import SOURCES
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import TimeResponse
-from simc_core.studies.advice import advice, advice_on_settings
+from simc_core.studies.advice import advice
+from simc_core.studies.own_settings import advice_on_settings
 
 BLIND = 1e-3  # of the range of PV: an error that REAL no longer sees and that is larger is told
 
@@ -209,7 +210,7 @@ def _on_sampling(final: Study, design: Design) -> list[str]:
 
 
 def _watch(design: Design, present: Study, typed: Typed | None) -> list[str]:
-    advised = advice(present.tuned) if present.tuned else advice_on_settings(design.plant, present.controller)
+    advised = advice(present.tuned) if present.tuned else advice_on_settings(present.loop, present.margins)
     found = [f"{item.headline}. {item.text} {item.remedy}".rstrip() for item in advised if item.level != "note"]
     if typed:
         found += typed.warnings
