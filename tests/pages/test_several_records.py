@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pages.common.session import links
-from pages.common.session.design import in_time_unit
+from pages.common.session.time_unit import in_time_unit
 from tests.identification.simulated import rise
 from tests.pages.tools import address, run_page, texts
 
