@@ -204,3 +204,19 @@ def note(text: str, background: str = ALARM) -> dict[str, Any]:
         "bgcolor": background,
         "borderpad": 3,
     }
+
+
+def stripe(low: float, high: float) -> dict[str, Any]:
+    """A shape: all that lies from `low` to `high` on the x axis, shaded behind the curves."""
+    return {
+        "type": "rect",
+        "xref": "x",
+        "yref": "paper",
+        "x0": low,
+        "x1": high,
+        "y0": 0,
+        "y1": 1,
+        "line": {"width": 0},
+        "fillcolor": GRID,
+        "layer": "below",
+    }

@@ -89,6 +89,11 @@ def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
     return NestedResponse(t, inputs[0], inputs[1:], outputs[:N], outputs[N:])
 
 
+def unit_steps(loop: NestedLoops, t: np.ndarray) -> np.ndarray:
+    """y of the outermost block after unit steps at t = 0 of r, d_1 .. d_N, one at a time: (n, 1 + N)."""
+    return steps_of(loop).run(float(t[-1]))(t)[:, len(loop.blocks) - 1]
+
+
 def time_scale(loop: NestedLoops) -> float:
     """All times of blocks and controllers together."""
     total = 0.0

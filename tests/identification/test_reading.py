@@ -309,6 +309,8 @@ def test_names_on_the_wrong_columns_are_asked_about():
     reading = understand(load(text))
     assert (reading.roles["SP"], reading.roles["OP"], reading.roles["PV"]) == ("Input", "Setpoint", "Output")
     assert any("do not fit" in question.text for question in reading.questions)
+    assert dict(reading.trend.units) == {"t": "s"}  # rpm and PWM stand above the wrong columns as well
+    assert any("Units are left open" in said for said in reading.understood)
 
 
 def test_two_outputs_that_move_together_are_asked_about():

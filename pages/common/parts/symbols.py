@@ -60,4 +60,4 @@ def spoken(text: str) -> str:
 def sentence(text: str) -> str:
     """The same with a capital at its beginning, unless that is a symbol."""
     shown = symbols(text)
-    return shown[0].upper() + shown[1:] if re.match(r"[a-z]{3}", shown) else shown
+    return shown[0].upper() + shown[1:] if re.match(r"[a-z]{3}|no ", shown) else shown

@@ -19,6 +19,7 @@ from simc_core.errors import SimcError
 from simc_core.loops.nested import CascadeLoop
 from simc_core.plants.models import Model
 from simc_core.simulation import Scenario, simulate
+from simc_core.simulation.simulate_nested import unit_steps
 from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
 
 PER_DECADE = 3
@@ -99,13 +100,10 @@ def IAE_by_sums(loop: CascadeLoop, end: float) -> tuple[float, float, float]:
     t = np.union1d(np.linspace(0.0, end, SAMPLES), np.geomspace(FIRST * end, end, SAMPLES))
     form = loop.outer.to_parallel()
     at_rest = 0.0 if loop.primary.integrators else 1 / loop.primary.k
-    totals = ((at_rest - form.Kp * (form.b - 1)) / form.Ki, -1 / form.Ki, 0.0)
-    found = []
-    for total, (r, d1, d2) in zip(totals, np.eye(3), strict=True):
-        times = {"disturbance_time": 0.0, "disturbance2_time": 0.0, "t_end": end}
-        e = r - simulate(loop, Scenario(r, d1, disturbance2=d2, t=t, **times)).y
-        found.append(float(np.trapezoid(np.abs(e), t)) + abs(total - float(np.trapezoid(e, t))))
-    return tuple(found)
+    totals = np.array([(at_rest - form.Kp * (form.b - 1)) / form.Ki, -1 / form.Ki, 0.0])
+    y_r, y_d2, y_d1 = unit_steps(loop.nested, t).T
+    e = np.array([1 - y_r, -y_d1, -y_d2])
+    return tuple(np.trapezoid(np.abs(e), t) + np.abs(totals - np.trapezoid(e, t)))
 
 
 def _section(held: Cascade, loop: str, low: float, high: float, grid: Grid, pause: Callable[[], None]) -> Section:
