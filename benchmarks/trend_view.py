@@ -1,9 +1,9 @@
 """`python -m benchmarks.trend_view`: frames a second while a record of 100 000 samples is panned and zoomed.
 
-A file is uploaded to the page From data in headless Chromium. Then the mouse drags on its figure: to draw a range that is
-zoomed to, and, after a click in its mode bar, to pan and to draw plotly's own zoom box. Counted are frames whose picture
-differs from the one before: the axis has moved, or the box has. `to all samples` is from letting go to the figure with
-every sample of a range of 1500. Bounded: about a minute. The last line is JSON.
+A file is uploaded to the page From data in headless Chromium. Then the mouse drags on its figure: to draw a range that
+is zoomed to, and, after a click in its mode bar, to pan and to draw plotly's own zoom box. Counted are frames whose
+picture differs from the one before: the axis has moved, or the box has. `to all samples` is from letting go to the
+figure with every sample of a range of 1500. Bounded: about a minute. The last line is JSON.
 """
 
 import json
