@@ -50,7 +50,7 @@ def trend_figure(
     traces: list[Trace] = []
     if trend.r is not None:
         traces.append(palette.line(*held(t_y, r, end), "SP", palette.R, "dash", 1.4, **hover))
-    behind = 1.0 if fitted is None else 0.5  # the model is to be seen in the noise
+    behind = 1.0 if fitted is None else 0.75  # the model is to be seen in the noise, and PV on a dark page
     traces.append(palette.line(*thinned(t_y, y), "PV", palette.Y, width=1.4, opacity=behind, **hover))
     traces.append(palette.line(*held(t_u, u, end), "OP", palette.U, width=1.6, yaxis="y2", **hover))
     domains = {"y": [0.36, 1.0], "y2": [0.0, 0.3]}

@@ -149,9 +149,13 @@ def reduced_model(plant: Plant, order: int = 1) -> Model:
     >>> reduced_model(parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))"))
     FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
     """
+    return _remembered(plant, checks.whole("order", order, 1, 2))
+
+
+@lru_cache(maxsize=64)  # a cascade asks for the model of its inner block at every speed
+def _remembered(plant: Plant, order: int) -> Model:
     parts = dynamics(plant)
-    removed = partial(_removed, parts)
-    return _chosen(_reduce(plant, parts, removed, 0.0, "2003", checks.whole("order", order, 1, 2)))
+    return _chosen(_reduce(plant, parts, partial(_removed, parts), 0.0, "2003", order))
 
 
 def _chosen(reduced: _Reduced) -> Model:

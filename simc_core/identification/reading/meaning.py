@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from simc_core.controllers.forms import Controller
 from simc_core.errors import DataError, SimcError
 from simc_core.identification.experiments.known_controller import COMPUTED, op_of_controller
-from simc_core.identification.reading.cleaning import HOUR, first_is_rubbish, in_order, without_repeats
+from simc_core.identification.reading.cleaning import ANEW, BACKWARDS, HOUR, first_is_rubbish, in_order, without_repeats
 from simc_core.identification.reading.columns import QUALITY, Column
 from simc_core.identification.reading.historian import by_tags, is_long
 from simc_core.identification.reading.inputs import moved_too
@@ -92,6 +92,8 @@ def understand(
     if not refusal:
         trend, mended, refusal = _trend(found, axis, roles.at | ({"OP": roles.at["SP"]} if computed else {}))
         understood += mended
+        asked = [each for each in mended if each.startswith((BACKWARDS, ANEW))]
+        questions += tuple(Question("order", each, (), "sorted") for each in asked)
         if computed and controller is not None and trend is not None:
             trend = op_of_controller(trend, controller)
             understood.append(COMPUTED)
