@@ -6,7 +6,7 @@ PORT ?= 8501
 HOST ?= 127.0.0.1
 UV := uv==0.13.9
 
-.PHONY: run test prepared programs installed lint doctest docs bench bench-ui screenshots lock licences clean
+.PHONY: run test prepared programs installed lint doctest docs bench bench-ui screenshots lock catalogue licences clean
 
 run: $(VENV)/run.stamp
 	@echo "SIMC: http://localhost:$(PORT)"
@@ -66,6 +66,10 @@ lock: $(VENV)/bin/python
 	printf 'numpy\nscipy\n' | $(COMPILE) -c requirements.lock - --group pyproject.toml:docs -o requirements-docs.lock
 COMPILE = $(BIN)/uv pip compile --quiet --no-config --no-header --universal --python-version 3.11 --generate-hashes \
 	--default-index https://pypi.org/simple
+
+# What is to be translated, into pages/locale: docs/languages.md
+catalogue: $(VENV)/run.stamp
+	$(BIN)/python -m pages.common.words.make
 
 licences: $(VENV)/run.stamp
 	$(BIN)/python -m deploy.licences
