@@ -6,7 +6,7 @@ PORT ?= 8501
 HOST ?= 127.0.0.1
 UV := uv==0.13.9
 
-.PHONY: run test prepared programs installed lint doctest docs bench bench-ui screenshots lock licences clean
+.PHONY: run test prepared programs installed lint doctest docs bench bench-ui screenshots lock catalogue licences clean
 
 run: $(VENV)/run.stamp
 	@echo "SIMC: http://localhost:$(PORT)"
@@ -50,12 +50,12 @@ bench: $(VENV)/dev.stamp
 	$(BIN)/python -m benchmarks.fuzz
 	$(BIN)/python -m benchmarks.bounds
 
-bench-ui: $(VENV)/dev.stamp chromium
+bench-ui: $(VENV)/dev.stamp chromium-headless-shell
 	$(BIN)/python -m benchmarks.ui
 	$(BIN)/python -m benchmarks.switches
 	$(BIN)/python -m benchmarks.pages
 
-screenshots: $(VENV)/dev.stamp chromium
+screenshots: $(VENV)/dev.stamp chromium-headless-shell
 	$(BIN)/python -m tests.browser.readme_picture
 
 # All versions with the hashes of their files, from requirements.txt and pyproject.toml: what run, test and images install.
@@ -67,6 +67,10 @@ lock: $(VENV)/bin/python
 COMPILE = $(BIN)/uv pip compile --quiet --no-config --no-header --universal --python-version 3.11 --generate-hashes \
 	--default-index https://pypi.org/simple
 
+# What is to be translated, into pages/locale: docs/languages.md
+catalogue: $(VENV)/run.stamp
+	$(BIN)/python -m pages.common.words.make
+
 licences: $(VENV)/run.stamp
 	$(BIN)/python -m deploy.licences
 
@@ -76,13 +80,17 @@ clean:
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV) || { echo "No venv here: apt-get install python3-venv"; exit 1; }
 
+# Python compiles what it imports; pip would compile all of it, half of the time here.
+INSTALL := $(BIN)/python -m pip install --quiet --no-compile --require-hashes
+
 $(VENV)/run.stamp: requirements.lock | $(VENV)/bin/python
-	$(BIN)/python -m pip install --quiet --require-hashes -r requirements.lock
+	$(INSTALL) -r requirements.lock
 	touch $@
 
-$(VENV)/dev.stamp: requirements-dev.lock $(VENV)/run.stamp
-	$(BIN)/python -m pip install --quiet --require-hashes -r requirements-dev.lock
-	touch $@
+# Holds all of requirements.lock, in the same versions.
+$(VENV)/dev.stamp: requirements-dev.lock requirements.lock | $(VENV)/bin/python
+	$(INSTALL) -r requirements-dev.lock
+	touch $(VENV)/run.stamp $@
 
 node_modules/.stamp: package-lock.json | npm
 	npm ci --silent --no-audit --no-fund
@@ -94,8 +102,8 @@ $(VENV)/docs.stamp: requirements-docs.lock | $(VENV)/bin/python
 	touch $@
 
 # Programs of Debian that tests need, installed where that is allowed: as root, or by sudo that asks nothing.
-PROGRAMS := chromium nginx systemd-analyze node npm gcc g++ avr-gcc octave
-DEBIAN_chromium := chromium
+PROGRAMS := chromium-headless-shell nginx systemd-analyze node npm gcc g++ avr-gcc octave
+DEBIAN_chromium-headless-shell := chromium-headless-shell
 DEBIAN_nginx := nginx
 DEBIAN_systemd-analyze := systemd
 DEBIAN_node := nodejs
@@ -116,7 +124,7 @@ installed:
 	    $$AS apt-get update -q && $$AS apt-get install -y -q --no-install-recommends $$MISSING && exit 0; fi; \
 	echo "The tests need programs that are not here. Install them: apt-get install$$MISSING (as root)"; exit 1
 
-# make chromium: that one alone
+# make chromium-headless-shell: that one alone
 .PHONY: $(PROGRAMS)
 $(PROGRAMS):
 	@$(MAKE) --no-print-directory installed PROGRAMS=$@

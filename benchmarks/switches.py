@@ -19,7 +19,7 @@ from pathlib import Path
 from playwright.sync_api import Page, sync_playwright
 
 from tests.browser.conftest import ARGS
-from tests.browser.tools import Server, idle
+from tests.browser.tools import CHROMIUM, Server, idle
 
 ROUNDS = 5
 BARE = """import streamlit as st
@@ -47,7 +47,7 @@ WATCH = """([kind, done]) => {
 def main() -> None:
     """Run, print a table, then one line of JSON."""
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=ARGS)
+        browser = playwright.chromium.launch(executable_path=shutil.which(CHROMIUM), args=ARGS)
         page = browser.new_page(viewport={"width": 1280, "height": 900})
         result = {"bare": bare(page)} | ours(page)
         browser.close()

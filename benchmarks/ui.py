@@ -20,7 +20,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 
 from benchmarks.visitors import ARRIVALS, BARE, PLANT, SESSIONS, all_arrivals, p95, sessions
 from tests.browser.conftest import ARGS
-from tests.browser.tools import Server, Wire, idle
+from tests.browser.tools import CHROMIUM, Server, Wire, idle
 
 PRESSES, DRAG = 40, 2.0  # s
 COLUMNS = (("tuning", "median ms", 11), ("tuning", "p95 ms", 9), ("bare", "median ms", 23), ("bare", "p95 ms", 9))
@@ -49,7 +49,7 @@ COUNT = """element => {
 def main() -> None:
     """Run, print a table, then one line of JSON."""
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=ARGS)
+        browser = playwright.chromium.launch(executable_path=shutil.which(CHROMIUM), args=ARGS)
         page = browser.new_page(viewport={"width": 1280, "height": 900})
         result = {"bare slider": bare(page), "live": live(page, f"tuning?plant={PLANT}")}
         result["live cascade"] = live(page, "cascade")

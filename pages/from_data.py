@@ -18,7 +18,7 @@ from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import sentence
 from pages.common.shell import header
 
-WAYS = ("How fast may the loop be?", "Auto-tuning", "Operating points")
+WAYS = ("How fast may the loop be?", "Auto-tuning", points_view.TITLE)
 
 design = header.show("from_data")
 with st.container(key="stack_from_data"):
@@ -32,7 +32,7 @@ with shown:
     if work is None:
         source.empty()
     elif work.trend is None:
-        st.error(sentence(told(work.reading.refusal)))
+        st.error(sentence(told(work.refusal)))
         loop_view.known_controller(work)
     else:
         trend = work.trend
@@ -48,7 +48,7 @@ with shown:
             st.error(f"**No model.** {sentence(fits.why)}")
         else:
             models_view.ranking(fits, model, trend)
-            models_view.card(model, trend)
+            models_view.card(model, trend, work.names())
             speed, auto, points = st.tabs(WAYS, key="ways", on_change="rerun")
             if speed.open:
                 with speed:

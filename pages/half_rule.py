@@ -7,6 +7,7 @@ from pages.common.parts.refusals import explain_refusal
 from pages.common.session import state
 from pages.common.shell import header
 from pages.common.studies.single import study
+from pages.common.words import words
 from simc_core.studies.tuned import reduced
 
 header.show("half_rule")
@@ -16,7 +17,7 @@ with explain_refusal():
     with told:
         reduction_view.choices()
         plant, tuning = state.plant(), state.tuning()
-        with st.spinner("Reducing the plant"):
+        with st.spinner(words("Reducing the plant")):
             reduction = reduced(plant, tuning.order, tuning.h, tuning.rules, tuning.tau_F)
         reduction_view.story(reduction)
     with judged:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from simc_core.errors import InvalidParameter
+from simc_core.wording import said
 
 LONGEST_TIME = 1e9  # largest time constant or dead time, and inverse of the smallest
 LARGEST_GAIN = 1e12  # largest gain, and inverse of the smallest
@@ -24,13 +25,15 @@ def real(name: str, value: object, low: float = -math.inf, high: float = math.in
     elif isinstance(value, Real) and not isinstance(value, bool):
         number = float(value)
     else:
-        raise InvalidParameter(f"{name} must be a number, found {_shown(value)}")
+        raise InvalidParameter(said("{name} must be a number, found {value}", name=name, value=_shown(value)))
     if not math.isfinite(number):
-        raise InvalidParameter(f"{name} must be finite, found {number}")
+        raise InvalidParameter(said("{name} must be finite, found {number}", name=name, number=number))
     if number < low:
-        raise InvalidParameter(f"{name} must be >= {low:g}, found {number:g}")
+        raise InvalidParameter(said("{name} must be >= {low:g}, found {number:g}", name=name, low=low, number=number))
     if number > high:
-        raise InvalidParameter(f"{name} must be <= {high:g}, found {number:g}")
+        raise InvalidParameter(
+            said("{name} must be <= {high:g}, found {number:g}", name=name, high=high, number=number)
+        )
     return number
 
 
@@ -38,9 +41,17 @@ def magnitude(name: str, value: object, largest: float) -> float:
     """`value` as a nonzero float, 1/largest <= |value| <= largest."""
     number = real(name, value)
     if number == 0:
-        raise InvalidParameter(f"{name} must not be zero, found 0")
+        raise InvalidParameter(said("{name} must not be zero, found 0", name=name))
     if not 1 / largest <= abs(number) <= largest:
-        raise InvalidParameter(f"|{name}| must be between {1 / largest:g} and {largest:g}, found {number:g}")
+        raise InvalidParameter(
+            said(
+                "|{name}| must be between {low:g} and {high:g}, found {number:g}",
+                name=name,
+                low=1 / largest,
+                high=largest,
+                number=number,
+            )
+        )
     return number
 
 
@@ -53,7 +64,7 @@ def positive(name: str, value: object) -> float:
     """A gain > 0."""
     number = gain(name, value)
     if number < 0:
-        raise InvalidParameter(f"{name} must be > 0, found {number:g}")
+        raise InvalidParameter(said("{name} must be > 0, found {number:g}", name=name, number=number))
     return number
 
 
@@ -66,7 +77,7 @@ def positive_time(name: str, value: object) -> float:
     """A time constant > 0."""
     number = time_constant(name, value)
     if number < 0:
-        raise InvalidParameter(f"{name} must be > 0, found {number:g}")
+        raise InvalidParameter(said("{name} must be > 0, found {number:g}", name=name, number=number))
     return number
 
 
@@ -74,7 +85,14 @@ def optional_time(name: str, value: object) -> float:
     """A time >= 0: zero, or not below the smallest time the core works with."""
     number = real(name, value, low=0.0, high=LONGEST_TIME)
     if 0 < number < 1 / LONGEST_TIME:
-        raise InvalidParameter(f"{name} must be 0 or >= {1 / LONGEST_TIME:g}, found {number:g}")
+        raise InvalidParameter(
+            said(
+                "{name} must be 0 or >= {low:g}, found {number:g}",
+                name=name,
+                low=1 / LONGEST_TIME,
+                number=number,
+            )
+        )
     return number
 
 
@@ -82,17 +100,21 @@ def whole(name: str, value: object, low: int, high: int) -> int:
     """`value` as an int in [low, high]."""
     number = real(name, value, low, high)
     if number != int(number):
-        raise InvalidParameter(f"{name} must be a whole number, found {number:g}")
+        raise InvalidParameter(said("{name} must be a whole number, found {number:g}", name=name, number=number))
     return int(number)
 
 
 def items(name: str, values: object, most: int = MOST_FACTORS) -> tuple:
     """`values` as a tuple of at most `most` items."""
     if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InvalidParameter(f"{name} must be a list of numbers, found {_shown(values)}")
+        raise InvalidParameter(
+            said("{name} must be a list of numbers, found {values}", name=name, values=_shown(values))
+        )
     given = tuple(values)
     if len(given) > most:
-        raise InvalidParameter(f"{name} may have at most {most} entries, found {len(given)}")
+        raise InvalidParameter(
+            said("{name} may have at most {most} entries, found {given}", name=name, most=most, given=len(given))
+        )
     return given
 
 
@@ -101,9 +123,18 @@ def array(name: str, values: ArrayLike, most: int) -> np.ndarray:
     try:
         found = np.atleast_1d(np.asarray(values, dtype=float))
     except (TypeError, ValueError):
-        raise InvalidParameter(f"{name} must be a list of numbers, found {_shown(values)}") from None
+        raise InvalidParameter(
+            said("{name} must be a list of numbers, found {values}", name=name, values=_shown(values))
+        ) from None
     if found.ndim != 1 or not 1 <= found.size <= most:
-        raise InvalidParameter(f"{name} must be a list of 1 to {most} numbers, found shape {found.shape}")
+        raise InvalidParameter(
+            said(
+                "{name} must be a list of 1 to {most} numbers, found shape {shape}",
+                name=name,
+                most=most,
+                shape=found.shape,
+            )
+        )
     return found
 
 

@@ -2,6 +2,8 @@
 
 import math
 
+from simc_core.wording import said
+
 
 class SimcError(ValueError):
     """Base of all errors that a user's input can cause."""
@@ -70,7 +72,12 @@ class DataError(SimcError):
     """A file or a paste that is no trend; `line` and `column` count from 1, None where there is no such place."""
 
     def __init__(self, message: str, line: int | None = None, column: int | None = None):
-        place = " ".join(f"{name} {at}" for name, at in (("line", line), ("column", column)) if at is not None)
-        super().__init__(f"{place}: {message}" if place else message)
+        if line is not None and column is not None:
+            message = said("line {line} column {column}: {message}", line=line, column=column, message=message)
+        elif line is not None:
+            message = said("line {line}: {message}", line=line, message=message)
+        elif column is not None:
+            message = said("column {column}: {message}", column=column, message=message)
+        super().__init__(message)
         self.line = line
         self.column = column

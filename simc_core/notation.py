@@ -13,12 +13,17 @@ from itertools import groupby
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
+from simc_core.wording import Numeral
 
 DIGITS = 4  # significant digits of numbers meant for the eye
 
 
-def number(value: float, digits: int = DIGITS) -> str:
+def number(value: float, digits: int = DIGITS) -> Numeral:
     """`value` with `digits` significant digits: 0.3571, 1.2e-5, 12350, ∞; no trailing zeros."""
+    return Numeral(_number(value, digits))
+
+
+def _number(value: float, digits: int) -> str:
     if math.isnan(value):
         return "–"
     if math.isinf(value):

@@ -12,6 +12,7 @@ from simc_core.algebra.exact_roots import polished
 from simc_core.algebra.factors import quadratic_roots
 from simc_core.algebra.square_free import Polynomial, square_free
 from simc_core.errors import InvalidParameter
+from simc_core.wording import said
 
 CLUSTER_RADII = (0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)  # relative; tried from coarse to fine
 SAME_POLYNOMIAL = 1e-11  # two polynomials are one if every coefficient agrees to this
@@ -47,7 +48,7 @@ def factorise(name: str, polynomials: Iterable) -> Factors:
         more_times, more_pairs = _time_constants(_roots(exact))
         times += more_times
         pairs += more_pairs
-    return Factors(checks.real(f"gain of the {name}", constant), at_origin, tuple(times), tuple(pairs))
+    return Factors(checks.real(said("gain of the {name}", name=name), constant), at_origin, tuple(times), tuple(pairs))
 
 
 def factorise_exact(name: str, polynomial: Polynomial) -> Factors:
@@ -64,10 +65,10 @@ def _time_constants(roots: list[complex]) -> tuple[list[float], list[tuple[float
 
 def _trimmed(name: str, polynomial: object) -> np.ndarray:
     given = checks.items(name, polynomial, checks.MOST_FACTORS + 1)
-    values = [checks.real(f"{name} coefficient", value) for value in given]
+    values = [checks.real(said("{name} coefficient", name=name), value) for value in given]
     coefficients = np.trim_zeros(np.array(values), "f")
     if coefficients.size == 0:
-        raise InvalidParameter(f"{name} must not be zero or empty, found {values}")
+        raise InvalidParameter(said("{name} must not be zero or empty, found {values}", name=name, values=values))
     return coefficients
 
 
@@ -80,9 +81,15 @@ def _check_sizes(name: str, coefficients: np.ndarray) -> None:
     too_large = any(size > room + (degree - i) * unit for i, size in enumerate(sizes))
     if degree > 1 and (too_large or sizes[0] < -degree * unit):
         raise InvalidParameter(
-            f"time constants of the {name} must be between {1 / checks.LONGEST_TIME:g} and {checks.LONGEST_TIME:g}: "
-            "coefficients of one polynomial must be of comparable size, "
-            f"found {coefficients[0]:g} to {coefficients[-1]:g}"
+            said(
+                "time constants of the {name} must be between {low:g} and {high:g}: "
+                "coefficients of one polynomial must be of comparable size, found {first:g} to {last:g}",
+                name=name,
+                low=1 / checks.LONGEST_TIME,
+                high=checks.LONGEST_TIME,
+                first=coefficients[0],
+                last=coefficients[-1],
+            )
         )
 
 
@@ -104,8 +111,10 @@ def _roots(exact: Polynomial) -> list[complex]:
         scaled = coefficients * scale ** np.arange(degree, -1.0, -1.0)
         scaled = scaled / np.max(np.abs(scaled))
     if not np.all(np.isfinite(scaled)) or scaled[0] == 0:
-        sizes = f"{coefficients[0]:g} to {coefficients[-1]:g}"
-        raise InvalidParameter(f"coefficients of one polynomial must be of comparable size, found {sizes}")
+        sizes = said("{first:g} to {last:g}", first=coefficients[0], last=coefficients[-1])
+        raise InvalidParameter(
+            said("coefficients of one polynomial must be of comparable size, found {sizes}", sizes=sizes)
+        )
     roots = np.roots(scaled)
     merged = _merged(roots, scaled)
     if merged is not None:

@@ -5,17 +5,18 @@ import math
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.reduction.records import BudgetEntry, Reduction
+from simc_core.wording import Numeral, said
 
 # where a part went -> (words, colour, pattern): the pattern says what the colour says
 FATES = {
-    "tau1": ("kept as τ₁", palette.REDUCED, ""),
-    "tau2": ("kept as τ₂", palette.REDUCED_TAU2, "-"),
-    "tau0": ("kept as τ₀", palette.REDUCED, ""),
-    "theta": ("into θ", palette.U, "/"),
-    "cancelled": ("cancelled with a zero or lag", palette.NEUTRAL, "x"),
-    "slope": ("into the slope k′", palette.Y, "."),
-    "integrator": ("absorbed by the integrator", palette.Y, "|"),
-    "a": ("kept as the unstable pole", palette.D, "\\"),
+    "tau1": (said("kept as τ₁"), palette.REDUCED, ""),
+    "tau2": (said("kept as τ₂"), palette.REDUCED_TAU2, "-"),
+    "tau0": (said("kept as τ₀"), palette.REDUCED, ""),
+    "theta": (said("into θ"), palette.U, "/"),
+    "cancelled": (said("cancelled with a zero or lag"), palette.NEUTRAL, "x"),
+    "slope": (said("into the slope k′"), palette.Y, "."),
+    "integrator": (said("absorbed by the integrator"), palette.Y, "|"),
+    "a": (said("kept as the unstable pole"), palette.D, "\\"),
 }
 
 
@@ -28,7 +29,7 @@ def budget_figure(reduction: Reduction, height: int | None = None) -> Figure:
     rows = list(range(len(entries)))
     return palette.figure(
         traces,
-        palette.axis("time constant  [time unit]", rangemode="tozero"),
+        palette.axis(said("time constant  [{unit}]", unit=palette.TIME_UNIT), rangemode="tozero"),
         palette.axis("", tickvals=rows, ticktext=[share.label for share in entries], autorange="reversed"),
         height or 70 + 34 * len(entries),
         barmode="stack",
@@ -58,7 +59,7 @@ def _bars(name: str, entries: tuple[BudgetEntry, ...], edge: float) -> Trace | N
         "y": [row for row, _, _ in found],
         "x": [min(abs(time), edge) for _, _, time in found],
         "text": [_amount(time) for _, _, time in found],
-        "customdata": [f"rule {where}" if name == "cancelled" else words for _, where, _ in found],
+        "customdata": [said("rule {where}", where=where) if name == "cancelled" else words for _, where, _ in found],
         "textposition": "inside",
         "insidetextanchor": "middle",
         "name": words,
@@ -70,4 +71,4 @@ def _bars(name: str, entries: tuple[BudgetEntry, ...], edge: float) -> Trace | N
 
 
 def _amount(time: float) -> str:
-    return "∞" if math.isinf(time) else f"{time:.4g}"
+    return Numeral("∞" if math.isinf(time) else f"{time:.4g}")

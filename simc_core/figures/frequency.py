@@ -13,6 +13,7 @@ from simc_core.loops.frequency_response import FrequencyResponse
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.crossings import Crossings
 from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.wording import Numeral, Text, said
 
 PHASE_VIEW = -540.0  # degrees; dead time winds on for ever, the eye need not follow it
 GAIN_VIEW = (1e-3, 1e3)  # widest span of |L| drawn round 1
@@ -26,7 +27,7 @@ def bode_figure(plant: Plant, model: Plant | None = None, height: int | None = N
     curves = [bode_curve(F, omega) for F in functions]
     traces = [
         trace
-        for name, curve, style in zip(("G", "model"), curves, palette.FULL_AND_REDUCED, strict=False)
+        for name, curve, style in zip(("G", said("model")), curves, palette.FULL_AND_REDUCED, strict=False)
         for trace in _bode(name, curve, *style)
     ]
     return _bode_layout(traces, "|G|  [y/u]", "∠G  [°]", curves[0], height)
@@ -51,7 +52,7 @@ def open_loop_figure(
     figure = _bode_layout(traces, "|L|  [–]", "∠L  [°]", present, height)
     figure["layout"]["shapes"] = [_level(1), _level(-180, "y2")]
     if not margins.stable:
-        figure["layout"]["annotations"] = [palette.note("Loop not stable: no margins")]
+        figure["layout"]["annotations"] = [palette.note(said("Loop not stable: no margins"))]
     return figure
 
 
@@ -79,7 +80,7 @@ def sensitivity_figure(
         palette.log_axis("|S|, |T|  [–]", range=_logs(0.02, min(top, 100.0))),
         height,
         shapes=[_level(1)],
-        annotations=[] if margins.stable else [palette.note("Loop not stable: peaks mean nothing")],
+        annotations=[] if margins.stable else [palette.note(said("Loop not stable: peaks mean nothing"))],
     )
 
 
@@ -101,7 +102,7 @@ def nested_sensitivity_figure(
         palette.log_axis("|Sa|, |Sb|  [–]", range=_logs(0.02, min(max(2.5, top), 100.0))),
         height,
         shapes=[_level(1)],
-        annotations=[] if stable else [palette.note("Cascade not sound: peaks mean nothing")],
+        annotations=[] if stable else [palette.note(said("Cascade not sound: peaks mean nothing"))],
     )
 
 
@@ -118,7 +119,7 @@ def model_error_figure(
     return palette.figure(
         traces,
         palette.log_axis(palette.FREQUENCY, hoverformat=".4g"),
-        palette.log_axis("relative error  [–]", range=_logs(DEEP, 100.0)),
+        palette.log_axis(said("relative error  [–]"), range=_logs(DEEP, 100.0)),
         height,
     )
 
@@ -130,9 +131,13 @@ def _magnitude(omega: np.ndarray, F: np.ndarray, name: str, color: str, dash: st
 def _peak(omega: float, height: float, symbol: str, color: str, ends: tuple[float, float]) -> Trace:
     """A marked peak; one at omega = 0 or infinity is marked at that end of the picture."""
     at = min(max(omega, ends[0]), ends[1])
-    label, hover = (
-        f"{symbol} {height:.3g}",
-        f"{symbol} = {height:.4g} at ω = {omega:.4g} [rad/time unit]<extra></extra>",
+    label = said("{symbol} {height:.3g}", symbol=symbol, height=height)
+    hover = said(
+        "{symbol} = {height:.4g} at ω = {omega:.4g} {unit}<extra></extra>",
+        symbol=symbol,
+        height=height,
+        omega=omega,
+        unit=palette.FREQUENCY_UNIT,
     )
     left = (symbol == "Mt" and at > ends[0]) or at == ends[1]
     return palette.marker(at, height, label, color, symbol, "top left" if left else "top right", hovertemplate=hover)
@@ -162,11 +167,13 @@ def _bode_layout(traces: list[Trace], gain: str, phase: str, curve: BodeCurve, h
 def _gain_margins(margins: Margins, crossings: Crossings) -> list[Trace]:
     """A stroke from |L| = 1/GM up, or 1/GM_lower down, to 1 where L is real and negative."""
     strokes = []
-    for name, limit in (("GM", margins.GM), ("GM lower", margins.GM_lower)):
+    for name, limit in (("GM", margins.GM), (said("GM lower"), margins.GM_lower)):
         if crossings.phase_gain.size and 0 < limit < math.inf:
             at = int(np.argmin(np.abs(np.log(crossings.phase_gain * limit))))
             omega, place = float(crossings.phase_omega[at]), "top right" if name == "GM" else "bottom left"
-            strokes.append(_stroke(omega, 1.0, 1 / limit, f"{name} {limit:.3g}", "y", place))
+            strokes.append(
+                _stroke(omega, 1.0, 1 / limit, said("{name} {limit:.3g}", name=name, limit=limit), "y", place)
+            )
     return strokes
 
 
@@ -178,7 +185,7 @@ def _phase_margin(margins: Margins, crossings: Crossings, curve: BodeCurve) -> l
     omega = float(crossings.gain_omega[at])
     phase = float(np.interp(omega, curve.omega, curve.phase_deg))
     limit = phase - math.degrees(crossings.gain_phase[at])
-    return [_stroke(omega, limit, phase, f"PM {margins.PM_deg:.3g}°", "y2", "bottom left")]
+    return [_stroke(omega, limit, phase, said("PM {PM_deg:.3g}°", PM_deg=margins.PM_deg), "y2", "bottom left")]
 
 
 def _delay_margin(margins: Margins, crossings: Crossings) -> list[Trace]:
@@ -186,9 +193,9 @@ def _delay_margin(margins: Margins, crossings: Crossings) -> list[Trace]:
     if not crossings.gain_omega.size:
         return []
     at = int(np.argmin(crossings.gain_phase % (2 * math.pi) / crossings.gain_omega))
-    label = f"delay margin {margins.delay_margin:.3g}"
-    point = palette.marker(float(crossings.gain_omega[at]), 1.0, label, palette.U, "delay margin", "bottom left")
-    return [point | {"hovertemplate": f"{label} at ω = %{{x:.4g}} [rad/time unit]<extra></extra>"}]
+    label = said("delay margin {delay_margin:.3g}", delay_margin=margins.delay_margin)
+    point = palette.marker(float(crossings.gain_omega[at]), 1.0, label, palette.U, said("delay margin"), "bottom left")
+    return [point | {"hovertemplate": _at(label, "%{x:.4g}")}]
 
 
 def _stroke(omega: float, start: float, end: float, label: str, axis: str, place: str) -> Trace:
@@ -197,10 +204,15 @@ def _stroke(omega: float, start: float, end: float, label: str, axis: str, place
         "text": [label, ""],
         "textposition": place,
         "marker": {"color": palette.U, "size": 6},
-        "hovertemplate": f"{label} at ω = {omega:.4g} [rad/time unit]<extra></extra>",
+        "hovertemplate": _at(label, Numeral(f"{omega:.4g}")),
         "showlegend": False,
         "yaxis": axis,
     }
+
+
+def _at(label: str, omega: str) -> Text:
+    """The hover text of a mark."""
+    return said("{label} at ω = {omega} {unit}<extra></extra>", label=label, omega=omega, unit=palette.FREQUENCY_UNIT)
 
 
 def _level(value: float, axis: str = "y") -> dict:

@@ -16,11 +16,15 @@ from simc_core.loops.frequency_response import FrequencyResponse
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.bands import CIRCLES
+from simc_core.wording import Numeral, said
 
 REFERENCES = tuple(zip(CIRCLES, (110.0, 160.0, 60.0), strict=True))  # and where the label interrupts, degrees
 LABEL, HEIGHT = 0.14, 0.04  # half length of the interruption, and what a label covers to either side, in units of L
 FLAT = 1e-6  # |Mt - 1| below this: the circle is a line to the eye
 VIEW_X, VIEW_Y = (-2.2, 0.7), (-1.4, 0.85)
+OMEGA_AND_L = said(
+    "ω = {omega} {unit}<br>L = %{{x:.4g}} %{{y:+.4g}} j", omega="%{customdata:.4g}", unit=palette.FREQUENCY_UNIT
+)
 FARTHEST_LEFT = -4.0
 
 
@@ -75,14 +79,14 @@ def _plane(traces: list[Trace], judged: Sequence[Margins], height: int | None) -
         palette.axis("Im L  [–]", range=list(VIEW_Y), zeroline=True, scaleanchor="x", scaleratio=1),
         height,
         hovermode="closest",
-        annotations=[] if stable else [palette.note("Loop not stable: no margins")],
+        annotations=[] if stable else [palette.note(said("Loop not stable: no margins"))],
     )
 
 
 def critical_point() -> Trace:
     """The red cross at -1."""
     cross = {"width": 2.5, "color": palette.ALARM}
-    return palette.marker(-1, 0, "−1", palette.NEUTRAL, "critical point", "bottom left", hoverinfo="skip") | {
+    return palette.marker(-1, 0, "−1", palette.NEUTRAL, said("critical point"), "bottom left", hoverinfo="skip") | {
         "marker": {"color": palette.ALARM, "size": 10, "symbol": "cross-thin", "line": cross}
     }
 
@@ -108,7 +112,7 @@ def _curve(name: str, omega: np.ndarray, L: np.ndarray, style: tuple[str, str, f
         *style,
         customdata=omega,
         showlegend=False,  # the time responses name the designs
-        hovertemplate="ω = %{customdata:.4g} [rad/time unit]<br>L = %{x:.4g} %{y:+.4g} j",
+        hovertemplate=OMEGA_AND_L,
     )
 
 
@@ -123,7 +127,7 @@ def _reference(Ms: float, angle: float) -> tuple[Trace, Trace]:
         "mode": "text",
         "x": [-1 + radius * math.cos(middle)],
         "y": [radius * math.sin(middle)],
-        "text": [f"{Ms:.1f}"],
+        "text": [Numeral(f"{Ms:.1f}")],
         "textfont": {"size": 11, "color": palette.NEUTRAL},
         "textposition": "middle center",
         "showlegend": False,
@@ -137,7 +141,7 @@ def _ms_circle(margins: Margins, of: str) -> list[Trace]:
     if not math.isfinite(margins.Ms):
         return []
     x, y = circle(-1.0, 1 / margins.Ms)
-    text = f"Ms{of} = {margins.Ms:.4g}"
+    text = said("Ms{of} = {Ms:.4g}", of=of, Ms=margins.Ms)
     return [palette.line(x, y, text, palette.S, "solid", 1.6, hovertemplate=text, meta="Ms circle")]
 
 
@@ -145,7 +149,7 @@ def _mt_circle(Mt: float) -> list[Trace]:
     if not math.isfinite(Mt):
         return []
     x, y = mt_circle(Mt)
-    text = f"Mt = {Mt:.4g}"
+    text = said("Mt = {Mt:.4g}", Mt=Mt)
     return [palette.line(x, y, text, palette.Y, "longdash", 1.4, hovertemplate=text, meta="Mt circle")]
 
 

@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from simc_core.wording import Numeral, joined, said
+
 Figure = dict[str, Any]
 Trace = dict[str, Any]
 
@@ -48,8 +50,13 @@ CHOSEN = ("#0072B2", "#6DB6E4")  # small letters of what is chosen, and the ring
 
 CALM_BAND, ALARM_BAND = "rgba(0,158,115,0.14)", "rgba(200,68,46,0.13)"  # behind curves
 
-TIME = "t  [time unit]"
-FREQUENCY = "ω  [rad/time unit]"
+# Open places of axes and hover texts, which a page fills with the user's own names.
+TIME_UNIT = said("time unit")
+UNIT_OF_Y, UNIT_OF_U = said("unit of y"), said("unit of u")
+FREQUENCY_UNIT = said("[rad/{unit}]", unit=TIME_UNIT)
+TIME = said("t  [{unit}]", unit=TIME_UNIT)
+FREQUENCY = said("ω  [rad/{unit}]", unit=TIME_UNIT)
+OUTPUT, INPUT = said("y  [{unit}]", unit=UNIT_OF_Y), said("u  [{unit}]", unit=UNIT_OF_U)
 
 
 TICKS = 12  # px, of the numbers on all axes
@@ -146,7 +153,7 @@ def short_log_axis(title: str, low: float, high: float) -> dict[str, Any]:
     ticks = [digit * 10.0**exponent for exponent in exponents for digit in digits]
     shown = [tick for tick in ticks if low <= tick <= high]
     span = [math.log10(low), math.log10(high)]
-    return axis(title, type="log", range=span, tickvals=shown, ticktext=[f"{tick:g}" for tick in shown])
+    return axis(title, type="log", range=span, tickvals=shown, ticktext=[Numeral(f"{tick:g}") for tick in shown])
 
 
 def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None = None, **layout: object) -> Figure:
@@ -192,7 +199,7 @@ def label(text: str, x: float, y: float, above: bool) -> dict[str, Any]:
 def note(text: str, background: str = ALARM) -> dict[str, Any]:
     """A banner across the figure, for what the curves themselves must not be taken for."""
     return {
-        "text": f"<b>{text}</b>",
+        "text": joined(("<b>", text, "</b>"), ""),
         "xref": "paper",
         "yref": "paper",
         "x": 0.5,
@@ -203,4 +210,20 @@ def note(text: str, background: str = ALARM) -> dict[str, Any]:
         "font": {"size": 12, "color": "white"},
         "bgcolor": background,
         "borderpad": 3,
+    }
+
+
+def stripe(low: float, high: float) -> dict[str, Any]:
+    """A shape: all that lies from `low` to `high` on the x axis, shaded behind the curves."""
+    return {
+        "type": "rect",
+        "xref": "x",
+        "yref": "paper",
+        "x0": low,
+        "x1": high,
+        "y0": 0,
+        "y1": 1,
+        "line": {"width": 0},
+        "fillcolor": GRID,
+        "layer": "below",
     }

@@ -7,6 +7,7 @@ import numpy as np
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 SAME_POLE_DIGITS = 10  # significant digits to which two poles are one multiple pole
 
@@ -14,8 +15,8 @@ SAME_POLE_DIGITS = 10  # significant digits to which two poles are one multiple 
 def pole_zero_figure(plant: Plant, height: int | None = None) -> Figure:
     """Poles x and zeros o in the s plane; multiplicity beside them, the right half plane shaded."""
     traces = [
-        *_points(plant.poles, "poles", palette.U, "x-thin"),
-        *_points(plant.zeros, "zeros", palette.Y, "circle-open"),
+        *_points(plant.poles, said("poles"), palette.U, "x-thin"),
+        *_points(plant.zeros, said("zeros"), palette.Y, "circle-open"),
     ]
     everything = np.concatenate([plant.poles, plant.zeros])
     reach = 1.25 * max(1e-12, float(np.max(np.abs(everything.real), initial=0.0))) if everything.size else 1.0
@@ -24,12 +25,24 @@ def pole_zero_figure(plant: Plant, height: int | None = None) -> Figure:
     shading = {"type": "rect", "x0": 0, "x1": right, "y0": -high, "y1": high, "layer": "below"}
     return palette.figure(
         traces,
-        palette.axis("Re s  [1/time unit]", range=[-reach, right], zeroline=True, zerolinecolor=palette.NEUTRAL),
-        palette.axis("Im s  [1/time unit]", range=[-high, high], zeroline=True, zerolinecolor=palette.NEUTRAL),
+        palette.axis(
+            said("Re s  [1/{unit}]", unit=palette.TIME_UNIT),
+            range=[-reach, right],
+            zeroline=True,
+            zerolinecolor=palette.NEUTRAL,
+        ),
+        palette.axis(
+            said("Im s  [1/{unit}]", unit=palette.TIME_UNIT),
+            range=[-high, high],
+            zeroline=True,
+            zerolinecolor=palette.NEUTRAL,
+        ),
         height,
         hovermode="closest",
         shapes=[shading | {"fillcolor": "rgba(200,68,46,0.08)", "line": {"width": 0}}],
-        annotations=[] if everything.size else [palette.note("No poles, no zeros: dead time alone", palette.NEUTRAL)],
+        annotations=[]
+        if everything.size
+        else [palette.note(said("No poles, no zeros: dead time alone"), palette.NEUTRAL)],
     )
 
 

@@ -9,6 +9,7 @@ from simc_core.figures.nyquist import VIEW_X, VIEW_Y, circle, critical_point
 from simc_core.figures.palette import Figure, Trace
 from simc_core.simulation import TimeResponse
 from simc_core.studies.plant_family import Robustness
+from simc_core.wording import said
 
 FAR = (-4.0, 6.0)  # of y: what grows beyond stays outside the picture
 
@@ -18,7 +19,7 @@ def bundle_figure(
 ) -> Figure:
     """y of all plants, thin; of the worst, dashed; of the nominal one on top."""
     traces = [
-        _bundle([(each.t, each.y) for each in family], "changed plants"),
+        _bundle([(each.t, each.y) for each in family], said("changed plants")),
         palette.line(nominal.t, nominal.r, "r", palette.R, "dash", 1.4, hoverinfo="skip"),
         palette.line(worst.t, worst.y, "worst", palette.ALARM, "dash", 2.0, hovertemplate="%{y:.4g}"),
         palette.line(nominal.t, nominal.y, "nominal", palette.Y, "solid", 2.2, hovertemplate="%{y:.4g}"),
@@ -29,7 +30,7 @@ def bundle_figure(
     return palette.figure(
         traces,
         palette.axis(palette.TIME, hoverformat=".4g"),
-        palette.axis("y  [unit of y]", range=[low - room, high + room]),
+        palette.axis(palette.OUTPUT, range=[low - room, high + room]),
         height,
     )
 
@@ -39,14 +40,18 @@ def band_figure(found: Robustness, nominal: np.ndarray, omega: np.ndarray, heigh
     curves = [case.loop.L(1j * omega) for case in (*found.corners, *found.samples)]
     worst = found.worst.loop.L(1j * omega)
     traces = [
-        _bundle([(L.real, L.imag) for L in curves], "changed plants"),
+        _bundle([(L.real, L.imag) for L in curves], said("changed plants")),
         palette.line(worst.real, worst.imag, "worst", palette.ALARM, "dash", 2.0, hoverinfo="skip"),
         palette.line(nominal.real, nominal.imag, "nominal", palette.Y, "solid", 2.2, hoverinfo="skip"),
         critical_point(),
     ]
     if found.worst.stable:
         x, y = circle(-1.0, 1 / found.worst.Ms)
-        traces.append(palette.line(x, y, f"worst Ms = {found.worst.Ms:.4g}", palette.S, "solid", 1.6, hoverinfo="skip"))
+        traces.append(
+            palette.line(
+                x, y, said("worst Ms = {Ms:.4g}", Ms=found.worst.Ms), palette.S, "solid", 1.6, hoverinfo="skip"
+            )
+        )
     return palette.figure(
         traces,
         palette.axis("Re L  [–]", range=list(VIEW_X), zeroline=True, constrain="range"),

@@ -13,6 +13,7 @@ from simc_core.figures.palette import Figure, Trace
 from simc_core.plants.step_response import PlantStep
 from simc_core.simulation import NestedResponse, TimeResponse
 from simc_core.studies.with_actuator import AsBuilt
+from simc_core.wording import said
 
 NestedCurves = Sequence[tuple[str, NestedResponse]]
 Curves = Sequence[tuple[str, TimeResponse | NestedResponse]]
@@ -25,34 +26,34 @@ def output_figure(curves: Curves, height: int | None = None, stable: bool = True
     """y(t) and the set point r(t), grey and dashed. stable=False: the figure says that the loop is not."""
     present = curves[0][1]
     traces = [_reference(present.t, present.r, "r"), *_signals(curves, "y", palette.Y)]
-    return _figure(traces, "y  [unit of y]", height, stable)
+    return _figure(traces, palette.OUTPUT, height, stable)
 
 
 def input_figure(curves: Curves, height: int | None = None, stable: bool = True) -> Figure:
     """u(t), the controller output, with its jumps. stable=False: the figure says that the loop is not."""
-    return _figure(_signals(curves, "u", palette.U), "u  [unit of u]", height, stable)
+    return _figure(_signals(curves, "u", palette.U), palette.INPUT, height, stable)
 
 
 def inner_output_figure(curves: NestedCurves, height: int | None = None, stable: bool = True) -> Figure:
     """y2(t) of cascades, and the set point r2 that the outer controller of the present one gives it."""
     present = curves[0][1]
     traces = [_reference(present.t, present.r2, "r2"), *_signals(curves, "y2", palette.INNER)]
-    return _figure(traces, "y2  [unit of y2]", height, stable)
+    return _figure(traces, said("y2  [{unit}]", unit=said("unit of y2")), height, stable)
 
 
 def inner_setpoint_figure(curves: NestedCurves, height: int | None = None, stable: bool = True) -> Figure:
     """r2(t), what the outer controller puts out: it shows whether that winds up."""
-    return _figure(_signals(curves, "r2", palette.INNER), "r2  [unit of y2]", height, stable)
+    return _figure(_signals(curves, "r2", palette.INNER), said("r2  [{unit}]", unit=said("unit of y2")), height, stable)
 
 
 def plant_step_figure(step: PlantStep, model: PlantStep | None = None, height: int | None = None) -> Figure:
     """Open-loop response to a unit step of u: the full plant, and its reduced model where there is one."""
-    found = [("G", step)] if model is None else [("G", step), ("model", model)]
+    found = [("G", step)] if model is None else [("G", step), (said("model"), model)]
     traces = [
         palette.line(record.t, record.y, name, *style, hovertemplate="%{y:.4g}")
         for (name, record), style in zip(found, palette.FULL_AND_REDUCED, strict=False)
     ]
-    return _figure(traces, "y  [unit of y]", height, stable=True)
+    return _figure(traces, palette.OUTPUT, height, stable=True)
 
 
 def built_output_figure(found: AsBuilt, height: int | None = None) -> Figure:
@@ -69,18 +70,18 @@ def built_input_figure(found: AsBuilt, height: int | None = None) -> Figure:
     t = found.built.t[[0, -1]]
     limits = [
         palette.line(t, [bound, bound], name, palette.NEUTRAL, "solid", 1.2, hoverinfo="skip", showlegend=False)
-        for name, bound in (("u min", found.actuation.u_min), ("u max", found.actuation.u_max))
+        for name, bound in ((said("u min"), found.actuation.u_min), (said("u max"), found.actuation.u_max))
         if low - room <= bound <= high + room
     ]
     names = [palette.label(line["name"], float(t[-1]), float(line["y"][0]), line["name"] == "u max") for line in limits]
-    figure = _figure([*limits, *_signals(curves, "u", palette.U)], "u  [unit of u]", height, found.numbers is not None)
+    figure = _figure([*limits, *_signals(curves, "u", palette.U)], palette.INPUT, height, found.numbers is not None)
     figure["layout"]["annotations"] = [*figure["layout"]["annotations"], *names]
     return figure
 
 
 def _as_built(found: AsBuilt) -> Curves:
-    curves = [("as built", found.built), ("linear", found.linear)]
-    return curves if found.unprotected is None else [*curves, ("no anti-windup", found.unprotected)]
+    curves = [(said("as built"), found.built), (said("linear"), found.linear)]
+    return curves if found.unprotected is None else [*curves, (said("no anti-windup"), found.unprotected)]
 
 
 def _reference(t: np.ndarray, r: np.ndarray, name: str) -> Trace:
@@ -105,5 +106,5 @@ def _figure(traces: list[Trace], title: str, height: int | None, stable: bool) -
         palette.axis(palette.TIME, hoverformat=".4g"),
         palette.axis(title, **view),
         height,
-        annotations=[] if stable else [palette.note("Loop not stable: the response grows")],
+        annotations=[] if stable else [palette.note(said("Loop not stable: the response grows"))],
     )

@@ -12,7 +12,6 @@ from simc_core.figures.thinned import held, thinned
 from simc_core.identification.trend import Trend
 
 Array = NDArray[np.float64]
-MOST_BANDS = 12
 
 
 def trend_figure(
@@ -51,7 +50,7 @@ def trend_figure(
     traces: list[Trace] = []
     if trend.r is not None:
         traces.append(palette.line(*held(t_y, r, end), "SP", palette.R, "dash", 1.4, **hover))
-    behind = 1.0 if fitted is None else 0.5  # the model is to be seen in the noise
+    behind = 1.0 if fitted is None else 0.75  # the model is to be seen in the noise, and PV on a dark page
     traces.append(palette.line(*thinned(t_y, y), "PV", palette.Y, width=1.4, opacity=behind, **hover))
     traces.append(palette.line(*held(t_u, u, end), "OP", palette.U, width=1.6, yaxis="y2", **hover))
     domains = {"y": [0.36, 1.0], "y2": [0.0, 0.3]}
@@ -62,10 +61,10 @@ def trend_figure(
         traces.append(palette.line(*thinned(t, residuals), "residual", palette.NEUTRAL, width=1, yaxis="y3", **hover))
         domains = {"y": [0.5, 1.0], "y2": [0.24, 0.45], "y3": [0.0, 0.19]}
         extra = {"yaxis3": palette.axis("PV − model", domain=domains["y3"], zeroline=True, nticks=4)}
-    shaded = [_band(low, high) for low, high in bad[:MOST_BANDS]]
+    shaded = [palette.stripe(*piece) for piece in bad]
     if part is not None:
         begin, last = whole
-        shaded += [_band(a, b) for a, b in ((begin, part[0]), (part[1], last)) if b > a]
+        shaded += [palette.stripe(a, b) for a, b in ((begin, part[0]), (part[1], last)) if b > a]
     lines = [_mark(t) for t in moves]
     at_most = {"range": list(shown)} if shown else {}
     return palette.figure(
@@ -136,21 +135,6 @@ def relay_figure(t: Array, y: Array, u: Array, height: int | None = None) -> Fig
         height,
         yaxis2=palette.axis("u  [unit of u]", domain=[0.0, 0.32], nticks=4),
     )
-
-
-def _band(low: float, high: float) -> dict[str, object]:
-    return {
-        "type": "rect",
-        "xref": "x",
-        "yref": "paper",
-        "x0": low,
-        "x1": high,
-        "y0": 0,
-        "y1": 1,
-        "line": {"width": 0},
-        "fillcolor": palette.GRID,
-        "layer": "below",
-    }
 
 
 def _mark(t: float) -> dict[str, object]:

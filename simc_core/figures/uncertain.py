@@ -28,7 +28,7 @@ def band_bode_figure(found: FrequencyBand, height: int | None = None) -> Figure:
     shapes = [_level(-180.0)]
     nominal, low, high = found.omega_180
     if np.isfinite(nominal) and np.isfinite(low):
-        shapes.append(_stripe(low, high))
+        shapes.append(palette.stripe(low, high))
     return palette.figure(
         traces,
         palette.log_axis(palette.FREQUENCY, hoverformat=".4g", anchor="y2"),
@@ -128,20 +128,5 @@ def _level(y: float) -> dict[str, object]:
         "y0": y,
         "y1": y,
         "line": {"color": palette.NEUTRAL, "width": 1, "dash": "dot"},
-        "layer": "below",
-    }
-
-
-def _stripe(low: float, high: float) -> dict[str, object]:
-    return {
-        "type": "rect",
-        "xref": "x",
-        "yref": "paper",
-        "x0": low,
-        "x1": high,
-        "y0": 0,
-        "y1": 1,
-        "line": {"width": 0},
-        "fillcolor": palette.GRID,
         "layer": "below",
     }

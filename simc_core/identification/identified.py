@@ -45,7 +45,7 @@ class Identified:
     slope : (float, float) or None
         k/tau1 with its standard error: known well where k and tau1 are not.
     gains : tuple of GainOfMove
-        Gain of each move of OP, where there are several.
+        Gain of each move of OP, where there are several; of several trends, of each move of each.
     noise : float
         Standard deviation of the residuals.
     correlation : float

@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import t as student
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter, NotIdentifiable
@@ -13,7 +12,7 @@ from simc_core.identification.estimator.records import as_record
 from simc_core.identification.estimator.structures import STRUCTURES
 from simc_core.identification.identified import Identified
 from simc_core.identification.judgement.estimate import Estimate, estimate
-from simc_core.identification.judgement.gain_per_move import GainOfMove, differ, gains_per_move
+from simc_core.identification.judgement.gain_per_move import GainOfMove, disagreement, gains_per_move
 from simc_core.identification.judgement.noise import resolution
 from simc_core.identification.judgement.refusals import refuse_before, refuse_weak
 from simc_core.identification.judgement.verdicts import along, disagree, verdicts
@@ -81,10 +80,12 @@ def identify(
     """
     trends = trends_of(trend)
     shape = _structure(structure)
+    if sign is not None and checks.whole("sign", sign, -1, 1) == 0:
+        raise InvalidParameter("sign must be 1 or -1, found 0")
     for one in trends:
         refuse_before(one)
     found = _estimate(trends, shape, drift, between_samples)
-    if drift is None and len(trends) == 1:
+    if drift is None:
         found = _plainer(trends, found, between_samples)
     return _told(trends, found, sign)
 
@@ -128,9 +129,7 @@ def _estimate(
     size = sum(record.t.size for record in records)
     if size < fewest:
         raise NotIdentifiable(f"{size} samples are too few for this structure: it needs at least {fewest}")
-    step = resolution_of(trends)
-    floor = max(BELIEVED * response_of(trends), step / np.sqrt(12))
-    return estimate(shape, records, floor, step, drift, start)
+    return estimate(shape, records, _floor(trends), resolution_of(trends), drift, start)
 
 
 def _plainer(trends: list[Trend], found: Estimate, between_samples: bool) -> Estimate:
@@ -140,7 +139,7 @@ def _plainer(trends: list[Trend], found: Estimate, between_samples: bool) -> Est
     what it takes from the gain is doubt about it.
     """
     structure = found.fit.problem.structure
-    if structure.integrating or not (found.drift or found.start) or not differ(_gains(trends, found)):
+    if structure.integrating or not (found.drift or found.start) or not disagreement(_gains(trends, found)):
         return found
     for drift, start in ((False, False), (False, True), (True, False)):
         if drift > found.drift or start > found.start or (drift, start) == (found.drift, found.start):
@@ -149,20 +148,27 @@ def _plainer(trends: list[Trend], found: Estimate, between_samples: bool) -> Est
         if other.start > start or other.noise.sigma > PLAINER * found.noise.sigma:
             continue
         gains = _gains(trends, other)
-        if gains and not differ(gains):
+        if gains and not disagreement(gains):
             off = other.values - found.values
             return replace(other, spread=other.spread + np.outer(off, off))
     return found
 
 
 def _gains(trends: list[Trend], found: Estimate) -> tuple[GainOfMove, ...]:
-    """Of each move, where there is one trend."""
-    if len(trends) > 1:
-        return ()
-    share = 1 - found.noise.sigma / max(float(np.std(trends[0].y)), 1e-300)
-    step = resolution_of(trends)
-    floor = max(BELIEVED * response_of(trends), step / np.sqrt(12))
-    return gains_per_move(found.fit, share, find_moves(trends[0]), floor)
+    """Of each move of each trend."""
+    share = 1 - found.noise.sigma / max(float(np.std(_about_means(found))), 1e-300)
+    return gains_per_move(found.fit, share, [find_moves(one) for one in trends], _floor(trends))
+
+
+def _about_means(found: Estimate) -> Array:
+    """PV as its deviation from its mean, of each trend its own."""
+    problem = found.fit.problem
+    return np.concatenate([problem.y[part] - problem.y[part].mean() for part in problem.parts])
+
+
+def _floor(trends: list[Trend]) -> float:
+    """Deviation of PV below which nothing is believed."""
+    return max(BELIEVED * response_of(trends), resolution_of(trends) / np.sqrt(12))
 
 
 def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
@@ -172,17 +178,16 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
     errors = np.sqrt(np.diag(covariance))
     parameters: Mapping[str, float] = dict(zip(names, values.tolist(), strict=True))
     _refuse_weak(trends, found)
-    if sign is not None and parameters[first] * checks.whole("sign", sign, -1, 1) <= 0:
+    if sign is not None and parameters[first] * sign <= 0:
         raise NotIdentifiable(
             f"The gain is {parameters[first]:.3g}, against the sign given: PV was moved by something else, or the loop "
             "was closed and not excited."
         )
-    width = float(student.ppf(0.975, found.freedom))
+    width = found.half_width
     plant, model = as_model(problem.structure.key, parameters)
     own = problem.root_weight > 0
-    around = np.concatenate([problem.y[part] - problem.y[part].mean() for part in problem.parts])
     residuals = found.fit.residual
-    moved = float(np.linalg.norm(around * own))
+    moved = float(np.linalg.norm(_about_means(found) * own))
     share = 1 - float(np.linalg.norm(residuals * own)) / moved if moved > 0 else 0.0
     moves = _gains(trends, found)
     bias, slope = along(found)

@@ -12,10 +12,11 @@ import numpy as np
 
 from simc_core import checks
 from simc_core.controllers.forms import IController
-from simc_core.errors import NotIdentifiable, SimcError
+from simc_core.errors import InvalidParameter, NotIdentifiable, SimcError
 from simc_core.identification.identified import Identified
 from simc_core.identification.identify import identify, resolution_of, response_of, trends_of
 from simc_core.identification.trend import Trend
+from simc_core.identification.uncertainty import NEAR
 from simc_core.rules.simc import simc
 
 USUAL = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag")
@@ -27,7 +28,6 @@ UNLIKELY = 10.0  # of the criterion, behind the best self-regulating structure
 UNSEEN = (
     "The drift of this model is not seen before OP moves: PV has not settled rather than integrates. Do not tune on it."
 )
-NEAR = 6.0  # of the criterion within which a structure fits nearly as well
 
 
 def identify_all(
@@ -76,6 +76,8 @@ def identify_all(
     """
     trends = trends_of(trend)
     keys = checks.items("structures", structures, 8)
+    if not keys:
+        raise InvalidParameter("structures must name at least one, found none")
     found: list[Identified] = []
     reasons: list[NotIdentifiable] = []
     for i, key in enumerate(keys):
@@ -86,7 +88,7 @@ def identify_all(
         except NotIdentifiable as error:
             reasons.append(error)
     if not found:
-        raise reasons[0] if reasons else NotIdentifiable("structures must name at least one, found none")
+        raise reasons[0]
     return _ranked(found, trends)
 
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from simc_core import checks
 from simc_core.controllers.forms import Controller
-from simc_core.errors import InvalidParameter, NotIdentifiable
+from simc_core.errors import NotIdentifiable, WrongType
 from simc_core.identification.cloud import Cloud, Uncertain, clouds
 from simc_core.identification.cloud_peaks import grid, peaks
 from simc_core.identification.estimator.held_input import Array
@@ -74,9 +74,8 @@ def ms_of_cloud(identified: Identified | Sequence[Identified], tau_c: ArrayLike 
     >>> round(float(ms_of_cloud(found, [3.5]).Ms[0, 0]), 2)
     1.59
     """
-    found = clouds(identified)
-    best = identified if isinstance(identified, Identified) else identified[0]
-    return _measured(found, best, _times(tau_c, best))
+    best = _best(identified)
+    return _measured(clouds(identified), best, _times(tau_c, best))
 
 
 def robust_tau_c(identified: Identified | Sequence[Identified], Ms: float = 1.7, probability: float = 0.95) -> float:
@@ -116,15 +115,25 @@ def robust_tau_c(identified: Identified | Sequence[Identified], Ms: float = 1.7,
     """
     Ms = checks.real("Ms", Ms, 1.05, 10.0)
     probability = checks.real("probability", probability, 0.5, 0.999)
-    best = identified if isinstance(identified, Identified) else identified[0]
+    best = _best(identified)
     return smallest_tau_c(identified, lambda tau_c: simc(best.model, tau_c), _times(None, best), Ms, probability)
+
+
+def _best(identified: Identified | Sequence[Identified]) -> Identified:
+    """The one whose settings are taken. Raises WrongType."""
+    if isinstance(identified, Identified):
+        return identified
+    first = identified[0] if isinstance(identified, Sequence) and identified else None
+    if not isinstance(first, Identified):
+        raise WrongType("identified must be what identify or identify_all returns")
+    return first
 
 
 def _times(tau_c: ArrayLike | None, best: Identified) -> Array:
     if tau_c is not None:
         found = checks.array("tau_c", tau_c, MOST_TAU_C)
-        if not np.all((found >= 1 / checks.LONGEST_TIME) & (found <= checks.LONGEST_TIME)):
-            raise InvalidParameter(f"tau_c must be positive times, found {found.min():g}")
+        for each in found.tolist():
+            checks.positive_time("tau_c", each)
         return found
     theta = best.model.theta
     if theta < best.standard_errors["theta"]:  # not resolved: what it may be

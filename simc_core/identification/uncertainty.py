@@ -12,7 +12,7 @@ from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.estimator.structures import STRUCTURES
 from simc_core.identification.identified import Identified
 
-NEAR = 6.0  # of the criterion within which a structure is part of what is not known
+NEAR = 6.0  # of the criterion within which a structure fits nearly as well, and is part of what is not known
 LARGEST = 1e12  # size of a number of them
 LEAST_FREEDOM = 1.0
 

@@ -1,6 +1,6 @@
 """`simc many loops.csv -o out/`: a list of loops in, results.csv and report.html out.
 
-A run that was stopped goes on where it was: loops whose tag is in results.csv are not done again.
+A run that was stopped goes on where it was. Rows that were changed since, or are asked for otherwise, are done again.
 """
 
 import argparse
@@ -12,6 +12,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+from simc_core import checks
 from simc_core.errors import SimcError
 from simc_core.many.processes import Processes
 from simc_core.many.read_list import meanings, read_list, template
@@ -22,6 +23,7 @@ from simc_core.many.tune_rows import tune_chunk
 from simc_core.many.variants import SPREAD, TuneWithVariants
 
 FEW = 300  # rows below which processes of one's own are not worth their start
+MOST_JOBS = 1000  # more than there are cores are not taken
 EVERY = 0.5  # seconds between two lines of progress
 
 
@@ -71,11 +73,13 @@ def _run(given: argparse.Namespace) -> int:
     out = Path(given.out)
     out.mkdir(parents=True, exist_ok=True)
     tune: TuneChunk = TuneWithVariants(given.variants, given.seed, given.spread) if given.variants else tune_chunk
-    with ResultsFile(out / "results.csv") as file:
-        left = list(file.left(loops.rows))
-        if len(left) < len(loops.rows):
-            print(f"{len(loops.rows) - len(left)} are in {file.path} already")
-        _tuned(left, _jobs(given.jobs, len(left)), tune, file)
+    jobs = checks.whole("jobs", given.jobs, 0, MOST_JOBS)
+    with ResultsFile(out / "results.csv", loops.rows, repr(tune) if given.variants else "") as file:
+        if len(file.left) < len(loops.rows):
+            print(f"{len(loops.rows) - len(file.left)} are in {file.path} already")
+        if file.changed:
+            print(f"{file.changed} have changed since and are done again")
+        _tuned(file.left, _jobs(jobs, len(file.left)), tune, file)
         lines = list(file.read())
     (out / "report.html").write_text(report(lines, f"Many loops: {Path(given.list).name}"), encoding="utf-8")
     print(summary(lines))
@@ -85,7 +89,7 @@ def _run(given: argparse.Namespace) -> int:
 
 def _jobs(asked: int, rows: int) -> int:
     """Processes beside this one."""
-    if asked > 0:
+    if asked:
         return min(asked, os.cpu_count() or 1) if asked > 1 else 0
     return (os.cpu_count() or 1) if rows > FEW else 0
 

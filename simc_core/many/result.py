@@ -8,6 +8,7 @@ from typing import Any
 from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
 from simc_core.implementation.boxes.convert import Typed
+from simc_core.many.worker import WorkFailed
 from simc_core.metrics.performance import Performance
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
@@ -129,13 +130,17 @@ TROUBLES = ("not stable", "fragile", "slow oscillation", "")
 
 
 def refused(row: Mapping[str, Any], error: BaseException | str) -> Result:
-    """A row without settings. Errors that are not a user's are named by their type."""
+    """A row without settings."""
     return Result(row, refusal=said(error))
 
 
 def said(error: BaseException | str) -> str:
-    """An error in words."""
+    """An error in words. What is no refusal is a fault of this program, or of a tune of one's own."""
     text = str(error)
     if isinstance(error, BaseException) and not isinstance(error, SimcError):
-        text = f"{type(error).__name__}: {text}"
+        text = f"a fault of this program, not of the row: {_named(error)}"
     return text if len(text) <= LONGEST_REFUSAL else text[: LONGEST_REFUSAL - 3] + "..."
+
+
+def _named(error: BaseException) -> str:
+    return str(error) if isinstance(error, WorkFailed) else f"{type(error).__name__}: {error}"

@@ -1,4 +1,4 @@
-"""Results as a CSV file that grows row by row: a run that was stopped goes on where it was.
+"""Results as a CSV file that grows row by row: a run that was stopped goes on where it was, with what is asked now.
 
 One line a loop, whatever is in its cells; text that a spreadsheet would take for a formula has an apostrophe in front.
 """
@@ -6,6 +6,7 @@ One line a loop, whatever is in its cells; text that a spreadsheet would take fo
 import csv
 import io
 import math
+import zlib
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
@@ -32,7 +33,7 @@ HEAD = (
     *("Ms", "Mt", "GM", "PM_deg", "delay_margin", "IAE_load", "IAE_setpoint", "overshoot", "settling_time"),
     *("model", "model_k", "model_theta", "model_tau1", "model_tau2", "model_a", "model_tau0", "model_zeta"),
     *("now", "form_now", "settings_now", "tau_F_now", "Ms_now", "IAE_load_now", "IAE_setpoint_now", "load_ratio"),
-    *("box", "typed", "action", "variants_stable", "variants_Ms_median", "variants_Ms_95", "advice"),
+    *("box", "typed", "action", "variants_stable", "variants_Ms_median", "variants_Ms_95", "advice", "asked"),
 )
 SOUND = "sound"
 BETWEEN = " | "  # two advices
@@ -89,7 +90,14 @@ def cells(result: Result) -> dict[str, str]:
     found["advice"] = safe(
         BETWEEN.join(f"{each.headline}: {each.text} {each.remedy}".strip() for each in result.advice)
     )
+    found["asked"] = asked(row, "")
     return {name: found.get(name, "") for name in HEAD}
+
+
+def asked(row: Mapping[str, Any], how: str) -> str:
+    """A sum over what a row asks for, its number apart, and how the run does it: the same for the same question."""
+    told = sorted((name, str(value)) for name, value in row.items() if name != "row")
+    return f"x{zlib.crc32(repr((told, how)).encode(errors='replace')):08x}"
 
 
 def typed_text(result: Result) -> str:
@@ -110,15 +118,21 @@ def as_csv(results: Iterable[Result]) -> str:
 
 
 class ResultsFile:
-    """A file of results, written as they come.
+    """A file of results of a list, written as they come.
 
-    path: a new file, or one of an earlier run, whose last line may be a broken one; it is then cut off.
+    path: a new file, or one of an earlier run. A broken last line is cut off, and so are results of rows of this list
+    that have changed since; those of other lists stay.
+    left: rows that are not in the file yet; a question that is there n times covers the first n rows that ask it.
+    changed: how many results were cut off.   how: the run does it; another way is another question.
     Raises InvalidParameter where there is a file of another kind.
     """
 
-    def __init__(self, path: Path):
-        self.path = path
-        self._done = self._begin()
+    def __init__(self, path: Path, rows: Iterable[Mapping[str, Any]], how: str = ""):
+        self.path, self._how = path, how
+        self.left = list(rows)
+        self.changed = 0
+        if self._begin():
+            self._compare()
 
     def __enter__(self) -> "ResultsFile":
         self._file = self.path.open("a", encoding="utf-8", newline="")
@@ -130,29 +144,20 @@ class ResultsFile:
 
     def write(self, result: Result) -> None:
         """One line, on the disk at once."""
-        self._writer.writerow(cells(result))
+        self._writer.writerow(cells(result) | {"asked": asked(result.row, self._how)})
         self._file.flush()
-
-    def left(self, rows: Iterable[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
-        """Rows that are not in the file yet. A tag that is there n times covers the first n rows of this tag."""
-        done = self._done.copy()
-        for row in rows:
-            tag = _key(row)
-            if done[tag]:
-                done[tag] -= 1
-            else:
-                yield row
 
     def read(self) -> Iterator[dict[str, str]]:
         """All lines of the file."""
         with self.path.open(encoding="utf-8", newline="") as file:
             yield from csv.DictReader(file)
 
-    def _begin(self) -> Counter[str]:
+    def _begin(self) -> bool:
+        """Whether there are whole lines of an earlier run."""
         head = ",".join(HEAD) + "\n"
         if not self.path.exists() or not self.path.stat().st_size:
             self.path.write_text(head, encoding="utf-8", newline="")
-            return Counter()
+            return False
         content = self.path.read_bytes()
         whole = content[: content.rfind(b"\n") + 1]
         if not whole.startswith(head.encode()):
@@ -161,7 +166,40 @@ class ResultsFile:
             )
         if whole != content:
             self.path.write_bytes(whole)
-        return Counter(line["tag"] or f"#{line['row']}" for line in self.read())
+        return True
+
+    def _compare(self) -> None:
+        """What is in the file, with what is asked now."""
+        wanted = Counter((_key(row), asked(row, self._how)) for row in self.left)
+        loops = {key for key, _ in wanted}
+        done: Counter[tuple[str, str]] = Counter()
+        kept = []
+        for line in self.read():
+            question = line["tag"] or f"#{line['row']}", line["asked"]
+            if done[question] < wanted[question]:
+                done[question] += 1
+            elif question[0] in loops:
+                self.changed += 1
+                continue
+            kept.append(line)
+        if self.changed:
+            self._rewrite(kept)
+        left = []
+        for row in self.left:
+            question = _key(row), asked(row, self._how)
+            if done[question]:
+                done[question] -= 1
+            else:
+                left.append(row)
+        self.left = left
+
+    def _rewrite(self, lines: Iterable[Mapping[str, str]]) -> None:
+        new = self.path.with_suffix(".new")
+        with new.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, HEAD, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(lines)
+        new.replace(self.path)
 
 
 def _key(row: Mapping[str, Any]) -> str:

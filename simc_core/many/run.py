@@ -9,16 +9,17 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+from functools import partial
 from itertools import islice
 from typing import Any
 
+from simc_core import checks
 from simc_core.errors import WrongType
 from simc_core.many.processes import Processes
 from simc_core.many.result import Result, refused
-from simc_core.many.tune_rows import tune_chunk
+from simc_core.many.tune_rows import MOST_ROWS, tune_chunk
 from simc_core.many.worker import TookTooLong, Worker, WorkerGone
 
-ROWS = 1000  # of a chunk: a second; with fewer, too few loops have the same structure
 ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched, at least; two a worker where there are more
 
 LONGEST = 60.0  # seconds that a row may take when it is alone; of a chunk one row may, and
@@ -30,7 +31,7 @@ TuneChunk = Callable[[Sequence[Row]], list[Result]]
 
 
 def tune_many(
-    rows: Iterable[Row], executor: Any = None, chunk: int = ROWS, tune: TuneChunk = tune_chunk
+    rows: Iterable[Row], executor: Any = None, chunk: int = MOST_ROWS, tune: TuneChunk = tune_chunk
 ) -> Iterator[Result]:
     """Many loops tuned, judged and compared with their present settings, one result a row, in the order of the rows.
 
@@ -41,7 +42,7 @@ def tune_many(
     executor : None, ProcessPoolExecutor, dask.distributed.Client or whatever has `submit` or `map`
         Who does the work; None: this process. A pool that breaks is replaced by one of our own.
     chunk : int
-        Rows that are worked on together.
+        Rows that are worked on together, 1 to 1000.
     tune : callable
         What is done with a chunk: `tune_chunk`, or a function of one's own that can be pickled.
 
@@ -54,6 +55,8 @@ def tune_many(
     ------
     WrongType
         `executor` has neither `submit` nor `map`.
+    InvalidParameter
+        `chunk` is out of its bounds.
 
     References
     ----------
@@ -66,13 +69,13 @@ def tune_many(
     >>> [(result.tag, result.controller is None) for result in tune_many(rows)]
     [('A', False), ('B', True)]
     """
-    chunks = _chunks(rows, chunk)
+    chunks = _chunks(rows, checks.whole("chunk", chunk, 1, MOST_ROWS))
     if executor is None:
         return _flat(_here(tune, each) for each in chunks)
     if hasattr(executor, "submit"):
         return _submitted(chunks, executor, tune)
     if hasattr(executor, "map"):
-        return _flat(executor.map(tune, chunks))
+        return _flat(executor.map(partial(_here, tune), chunks))
     raise WrongType(f"executor must have submit or map, found {type(executor).__name__}")
 
 

@@ -21,7 +21,7 @@ from simc_core.studies.advice import Advice
 from simc_core.studies.equal_robustness import at_equal_robustness
 from simc_core.studies.tune import tune
 
-MOST_ROWS = 1000  # of one chunk
+MOST_ROWS = 1000  # of one chunk: a second; with fewer, too few loops have the same structure
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,6 +22,10 @@ class TookTooLong(WorkerGone):
     """It took longer than it may, and was ended."""
 
 
+class WorkFailed(Exception):
+    """What was done there has raised: the name of the error, and what it says."""
+
+
 class Worker:
     """The process is started when it is first needed, and anew when it has ended.
 
@@ -35,7 +39,7 @@ class Worker:
     def call(self, function: Callable[[Any], Any], argument: Any, longest: float | None = None) -> Any:
         """function(argument), done there; both must be such as can be pickled.
 
-        longest: seconds, the start of the process apart.   Raises WorkerGone, and RuntimeError with what the function
+        longest: seconds, the start of the process apart.   Raises WorkerGone, and WorkFailed with what the function
         has raised.
         """
         question = pickle.dumps((function, argument))
@@ -62,7 +66,7 @@ class Worker:
             if timer is not None:
                 timer.cancel()
         if not good:
-            raise RuntimeError(answer)
+            raise WorkFailed(answer)
         return answer
 
     def end(self) -> None:

@@ -11,6 +11,7 @@ from fractions import Fraction
 from simc_core.errors import InvalidParameter
 from simc_core.numbers.refusal import no_number, quoted
 from simc_core.numbers.signs import INVISIBLE, LOWERED, SUPERSCRIPTS, tidied
+from simc_core.wording import said
 
 LONGEST_NUMBER = 100  # characters
 LARGEST_EXPONENT = 300  # powers of ten; a double ends at 308
@@ -65,9 +66,16 @@ def read_number(name: str, text: str) -> float:
 def read_exact(name: str, text: str) -> Fraction:
     """As `read_number`, without rounding."""
     if not isinstance(text, str):
-        raise InvalidParameter(f"{name} must be text, found {type(text).__name__}")
+        raise InvalidParameter(said("{name} must be text, found {kind}", name=name, kind=type(text).__name__))
     if len(text) > LONGEST_NUMBER:
-        raise InvalidParameter(f"{name} may have at most {LONGEST_NUMBER} characters, found {len(text)}")
+        raise InvalidParameter(
+            said(
+                "{name} may have at most {longest_number} characters, found {text}",
+                name=name,
+                longest_number=LONGEST_NUMBER,
+                text=len(text),
+            )
+        )
     return exact(name, text)
 
 
@@ -75,7 +83,7 @@ def exact(name: str, text: str) -> Fraction:
     """As `read_exact`, of text whose length was looked at before."""
     plain = tidied(text.strip().strip(INVISIBLE)).strip()
     if not plain:
-        raise InvalidParameter(f"{name} must be a number, found nothing: write for instance 0.5")
+        raise InvalidParameter(said("{name} must be a number, found nothing: write for instance 0.5", name=name))
     top, *bottom = [part.strip() for part in plain.split("/")]
     if not bottom:
         return _scientific(name, top)
@@ -83,10 +91,18 @@ def exact(name: str, text: str) -> Fraction:
         raise InvalidParameter(no_number(name, plain))
     # 1 1/2 may be one and a half, so that blanks have no place here at all
     if len(bottom) > 1 or " " in top or " " in bottom[0] or not top or not bottom[0]:
-        raise InvalidParameter(f"{name} must be one number or one fraction like 11/5 or 3/2, found '{quoted(plain)}'")
+        raise InvalidParameter(
+            said(
+                "{name} must be one number or one fraction like 11/5 or 3/2, found '{plain}'",
+                name=name,
+                plain=quoted(plain),
+            )
+        )
     divisor = _scientific(name, bottom[0])
     if not divisor:
-        raise InvalidParameter(f"{name} must not be divided by zero, found '{quoted(plain)}'")
+        raise InvalidParameter(
+            said("{name} must not be divided by zero, found '{plain}'", name=name, plain=quoted(plain))
+        )
     return _scientific(name, top) / divisor
 
 
@@ -95,7 +111,11 @@ def to_float(name: str, value: Fraction) -> float:
     limit = Fraction(10) ** LARGEST_EXPONENT
     if abs(value) > limit or 0 < abs(value) < 1 / limit:
         raise InvalidParameter(
-            f"|{name}| must be 0 or between 1e-{LARGEST_EXPONENT} and 1e{LARGEST_EXPONENT}, found a number beyond"
+            said(
+                "|{name}| must be 0 or between 1e-{largest_exponent} and 1e{largest_exponent}, found a number beyond",
+                name=name,
+                largest_exponent=LARGEST_EXPONENT,
+            )
         )
     return float(value)
 
@@ -108,8 +128,14 @@ def decimal(name: str, digits: str) -> Fraction:
     if TWO_WAYS.fullmatch(digits):
         whole, _, rest = digits.partition(",")
         raise InvalidParameter(
-            f"{name} can be read in two ways, found '{digits}': write {whole}{rest} if the comma separates thousands, "
-            f"{whole}.{rest} if it is a decimal comma"
+            said(
+                "{name} can be read in two ways, found '{digits}': write {whole}{rest} if the comma separates "
+                "thousands, {whole}.{rest} if it is a decimal comma",
+                name=name,
+                digits=digits,
+                whole=whole,
+                rest=rest,
+            )
         )
     if DECIMAL.fullmatch(digits):
         return Fraction(digits.replace(",", "."))
@@ -127,6 +153,13 @@ def _scientific(name: str, part: str) -> Fraction:
     size = decimal(name, found["digits"]) if found["digits"] else Fraction(1)
     exponent = int((found["power"] or "0").translate(LOWERED).strip("^*(){}"))
     if abs(exponent) > LARGEST_EXPONENT:
-        raise InvalidParameter(f"{name} must have an exponent of at most {LARGEST_EXPONENT}, found {exponent}")
+        raise InvalidParameter(
+            said(
+                "{name} must have an exponent of at most {largest_exponent}, found {exponent}",
+                name=name,
+                largest_exponent=LARGEST_EXPONENT,
+                exponent=exponent,
+            )
+        )
     value = size * Fraction(10) ** exponent
     return -value if found["sign"] == "-" else value

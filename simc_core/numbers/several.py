@@ -12,6 +12,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.numbers.one import THOUSANDS, exact, to_float
 from simc_core.numbers.refusal import quoted
 from simc_core.numbers.signs import INVISIBLE, tidied
+from simc_core.wording import said
 
 LONGEST_LIST = 2000  # characters
 MOST_PRODUCTS = 40  # conv inside conv
@@ -57,9 +58,16 @@ def read_numbers(name: str, text: str) -> list[float]:
 def read_exact_numbers(name: str, text: str) -> list[Fraction]:
     """As `read_numbers`, without rounding."""
     if not isinstance(text, str):
-        raise InvalidParameter(f"{name} must be text, found {type(text).__name__}")
+        raise InvalidParameter(said("{name} must be text, found {kind}", name=name, kind=type(text).__name__))
     if len(text) > LONGEST_LIST:
-        raise InvalidParameter(f"{name} may have at most {LONGEST_LIST} characters, found {len(text)}")
+        raise InvalidParameter(
+            said(
+                "{name} may have at most {longest_list} characters, found {text}",
+                name=name,
+                longest_list=LONGEST_LIST,
+                text=len(text),
+            )
+        )
     plain = COMMENT.sub("", tidied(text.strip().strip(INVISIBLE))).strip().rstrip(";").strip()
     if assigned := NAME.match(plain):
         plain = plain[assigned.end() :].strip()
@@ -78,7 +86,7 @@ def program_list(name: str, text: str) -> list[Fraction]:
     """The numbers of [1, 2.5 3], as MATLAB and Python have them: a comma separates, whatever stands beside it."""
     inner = text.strip()[1:-1].strip().rstrip(",")
     if re.search(r"[;\n]", inner.strip()):
-        raise InvalidParameter(f"{name} must be one row of numbers, found '{quoted(text)}'")
+        raise InvalidParameter(said("{name} must be one row of numbers, found '{text}'", name=name, text=quoted(text)))
     return _each(name, re.split(r"\s*,\s*|\s+", inner), text)
 
 
@@ -103,9 +111,15 @@ def _listed(name: str, plain: str) -> list[Fraction]:
             return program_list(name, plain)
         plain = inner
     if not plain:
-        raise InvalidParameter(f"{name} must have at least one coefficient, found none")
+        raise InvalidParameter(said("{name} must have at least one coefficient, found none", name=name))
     if re.search(r"[^\W\d_]{2,}|[a-df-wyzA-DF-WYZ(]", plain):
-        raise InvalidParameter(f"{name} must be coefficients, found '{quoted(plain)}': write 1 3 2 for s^2 + 3s + 2")
+        raise InvalidParameter(
+            said(
+                "{name} must be coefficients, found '{plain}': write 1 3 2 for s^2 + 3s + 2",
+                name=name,
+                plain=quoted(plain),
+            )
+        )
     return _each(name, _parts(name, plain), plain)
 
 
@@ -145,26 +159,43 @@ def _blank_separated(name: str, plain: str) -> list[str]:
         raise _two_ways(name, plain)
     if any(part in ("+", "-", "/", "*") for part in parts):
         raise InvalidParameter(
-            f"{name}: a sign must stand at its number, found '{quoted(plain)}': write 1 -2 for 1 and -2"
+            said(
+                "{name}: a sign must stand at its number, found '{plain}': write 1 -2 for 1 and -2",
+                name=name,
+                plain=quoted(plain),
+            )
         )
     return parts
 
 
 def _two_ways(name: str, plain: str) -> InvalidParameter:
     return InvalidParameter(
-        f"{name} can be read in two ways, found '{quoted(plain)}': write decimal points, and semicolons between the "
-        "coefficients, like 1; 2.5; 3"
+        said(
+            "{name} can be read in two ways, found '{plain}': write decimal points, and semicolons between "
+            "the coefficients, like 1; 2.5; 3",
+            name=name,
+            plain=quoted(plain),
+        )
     )
 
 
 def _each(name: str, parts: list[str], text: str) -> list[Fraction]:
     if len(parts) > MOST_NUMBERS:
-        raise InvalidParameter(f"{name} may have at most {MOST_NUMBERS} coefficients, found {len(parts)}")
+        raise InvalidParameter(
+            said(
+                "{name} may have at most {most_numbers} coefficients, found {parts}",
+                name=name,
+                most_numbers=MOST_NUMBERS,
+                parts=len(parts),
+            )
+        )
     values = []
     for i, part in enumerate(parts, start=1):
         if not part:
-            raise InvalidParameter(f"{name}: coefficient {i} is missing, found '{quoted(text)}'")
+            raise InvalidParameter(
+                said("{name}: coefficient {i} is missing, found '{text}'", name=name, i=i, text=quoted(text))
+            )
         if " " in part:
             raise _two_ways(name, text)
-        values.append(exact(f"{name}: coefficient {i}", part))
+        values.append(exact(said("{name}: coefficient {i}", name=name, i=i), part))
     return values

@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +105,9 @@ class SecondOrderDelay(_Model):
     def __post_init__(self) -> None:
         _Model.__post_init__(self)
         if self.tau2 > self.tau1:
-            raise InvalidParameter(f"tau2 must be <= tau1 = {self.tau1:g}, found {self.tau2:g}")
+            raise InvalidParameter(
+                said("tau2 must be <= tau1 = {tau1:g}, found {tau2:g}", tau1=self.tau1, tau2=self.tau2)
+            )
 
     @property
     def plant(self) -> Plant:

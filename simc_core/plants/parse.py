@@ -22,13 +22,14 @@ from simc_core.plants.pasted.parameters import DAMPING, DELAYS, GAINS, LAGS, fro
 from simc_core.plants.pasted.statements import Statement, statements
 from simc_core.plants.pasted.tokens import fault
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 LONGEST_TEXT = 2000
 WITH_UNIT = re.compile(
     r"(?P<number>[-+]?[\d.,]*\d(?:[eE][-+]?\d+)?) *(?:[%°]?[^\W\d_]+|%)(?: */ *(?:[%°]?[^\W\d_]+|%))?"
 )
 LIST = re.compile(r"\[[^\[\]]*\]['.]*|(?:\w+\.)?(?:array|conv|convolve|polymul)\s*\(.*\)", re.DOTALL)
-EXAMPLE = "for instance exp(-3s)/((6s+1)(4s+1))"
+EXAMPLE = said("for instance exp(-3s)/((6s+1)(4s+1))")
 
 
 def parse_plant(text: str) -> Plant:
@@ -60,29 +61,43 @@ def parse_plant(text: str) -> Plant:
     (3.0, (6.0, 4.0, 2.0))
     """
     if not isinstance(text, str):
-        raise ParseError(f"a transfer function must be text, found {type(text).__name__}")
+        raise ParseError(said("a transfer function must be text, found {name__}", name__=type(text).__name__))
     if len(text) > LONGEST_TEXT:
-        raise ParseError(f"text must have at most {LONGEST_TEXT} characters, found {len(text)}", text, LONGEST_TEXT)
+        raise ParseError(
+            said(
+                "text must have at most {longest_text} characters, found {text}",
+                longest_text=LONGEST_TEXT,
+                text=len(text),
+            ),
+            text,
+            LONGEST_TEXT,
+        )
     if not text.strip():
-        raise ParseError(f"text must not be empty: write a transfer function, {EXAMPLE}", text)
+        raise ParseError(said("text must not be empty: write a transfer function, {example}", example=EXAMPLE), text)
     try:
         return read_factored(text) or _plant(text)
     except OverflowError:
-        raise ParseError("numbers here grow beyond all bounds", text) from None
+        raise ParseError(said("numbers here grow beyond all bounds"), text) from None
 
 
 def _plant(text: str) -> Plant:
     value = _Statements(text).value()
     if value.theta < 0:
         raise ParseError(
-            f"dead time must be >= 0, found {float(value.theta):g}: e^{{+{-float(value.theta):g}s}} would look into "
-            f"the future; a dead time of {-float(value.theta):g} is e^{{-{-float(value.theta):g}s}}",
+            said(
+                "dead time must be >= 0, found {theta:g}: e^{{+{theta_2:g}s}} would look into the future; a dead"
+                " time of {theta_2:g} is e^{{-{theta_2:g}s}}",
+                theta=float(value.theta),
+                theta_2=-float(value.theta),
+            ),
             text,
             value.at,
         )
     if not value.den and degree(value):
         raise ParseError(
-            "a denominator is missing: write / between numerator and denominator, as in 2/(10s+1)", text, len(text)
+            said("a denominator is missing: write / between numerator and denominator, as in 2/(10s+1)"),
+            text,
+            len(text),
         )
     return plant_of(value)
 
@@ -102,7 +117,9 @@ class _Statements:
     def value(self) -> Value:
         parts = statements(self.plain)
         if not parts:
-            raise ParseError(f"a transfer function is missing here: write one, {EXAMPLE}", self.text)
+            raise ParseError(
+                said("a transfer function is missing here: write one, {example}", example=EXAMPLE), self.text
+            )
         for part in parts:
             self.refuse_unit(part)
         others = [part for part in parts if not self.read_list(part) and not self.read_number(part)]
@@ -113,8 +130,19 @@ class _Statements:
             self.used |= {"num", "den"}
         for name, part in self.lists.items():
             if name not in self.used:
-                way_out = "leave it out" if self.functions else "name two lists num and den, or write tf([2], [10 1])"
-                raise self.fault(f"'{quoted(part.name)}' is a list of numbers and is not used: {way_out}", part)
+                way_out = (
+                    said("leave it out")
+                    if self.functions
+                    else said("name two lists num and den, or write tf([2], [10 1])")
+                )
+                raise self.fault(
+                    said(
+                        "'{name}' is a list of numbers and is not used: {way_out}",
+                        name=quoted(part.name),
+                        way_out=way_out,
+                    ),
+                    part,
+                )
         unused = {name: given for name, given in self.numbers.items() if name not in self.used}
         if not self.functions:
             return from_parameters(self.text, unused)
@@ -122,8 +150,8 @@ class _Statements:
         for other, part in self.functions[:-1]:
             if part.key not in self.used:
                 if number_of(other) is not None and not part.name:
-                    raise self.fault("a number stands here without a name: write theta = 3 for a dead time", part)
-                raise self.fault("there are two transfer functions in this text: enter one of them", part)
+                    raise self.fault(said("a number stands here without a name: write theta = 3 for a dead time"), part)
+                raise self.fault(said("there are two transfer functions in this text: enter one of them"), part)
         return self.delayed(value, unused)
 
     def read_list(self, part: Statement) -> bool:
@@ -146,11 +174,11 @@ class _Statements:
             return False
         number = number_of(self.reader(part).plant())
         if number is None:
-            raise self.fault(f"'{quoted(part.name)}' must be one number", part)
+            raise self.fault(said("'{name}' must be one number", name=quoted(part.name)), part)
         if part.key in ("s", "e"):
-            raise self.fault(f"'{quoted(part.name)}' cannot be given a value here", part)
+            raise self.fault(said("'{name}' cannot be given a value here", name=quoted(part.name)), part)
         if part.key in self.numbers:
-            raise self.fault(f"'{quoted(part.name)}' is given twice", part)
+            raise self.fault(said("'{name}' is given twice", name=quoted(part.name)), part)
         self.numbers[part.key] = number, part
         self.names[part.key] = Value(((number,),))
         return True
@@ -159,15 +187,18 @@ class _Statements:
         found = WITH_UNIT.fullmatch(self.plain[part.start : part.stop].strip())
         if found and part.key.lower() in (*GAINS, *LAGS, *DELAYS, *DAMPING):
             raise self.fault(
-                f"'{quoted(part.name)}' must be a number without a unit, all times in the same one: "
-                f"write {quoted(part.name)} = {found['number']}",
+                said(
+                    "'{name}' must be a number without a unit, all times in the same one: write {name} = {found}",
+                    name=quoted(part.name),
+                    found=found["number"],
+                ),
                 part,
             )
 
     def read_function(self, part: Statement) -> None:
         if part.key.lower() in DELAYS:
             raise self.fault(
-                f"'{quoted(part.name)}' must be a number without a unit, as in {quoted(part.name)} = 3", part
+                said("'{name}' must be a number without a unit, as in {name} = 3", name=quoted(part.name)), part
             )
         reader = self.reader(part)
         value = reader.plant()
@@ -184,12 +215,16 @@ class _Statements:
         for name, (number, part) in unused.items():
             if name.lower() not in DELAYS:
                 raise self.fault(
-                    f"'{quoted(part.name)}' is given a value and is not used: write theta = {float(number):g} if it "
-                    "is the dead time, or leave it out",
+                    said(
+                        "'{name}' is given a value and is not used: write theta = {number:g} if it is the dead time, "
+                        "or leave it out",
+                        name=quoted(part.name),
+                        number=float(number),
+                    ),
                     part,
                 )
             if value.theta:
-                raise self.fault("the dead time is given twice: leave one out", part)
+                raise self.fault(said("the dead time is given twice: leave one out"), part)
             value = Value(value.num, value.den, number, part.at)
         return value
 

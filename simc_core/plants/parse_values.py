@@ -10,6 +10,7 @@ from simc_core.algebra.polynomials import factorise_exact
 from simc_core.algebra.square_free import square_free
 from simc_core.errors import InvalidParameter
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 MOST_PARTS = 200  # factors of a product, before the plant's own bound on poles speaks
 MOST_BITS = 20_000  # of a coefficient on its way through powers and products
@@ -38,10 +39,10 @@ def plant_of(value: Value) -> Plant:
     Raises InvalidParameter where it is out of a plant's bounds.
     """
     if is_zero(value):
-        raise InvalidParameter("k must not be zero, found 0")
+        raise InvalidParameter(said("k must not be zero, found 0"))
     gain = Fraction(1)
     found: dict[str, tuple[int, list[float], list[tuple[float, float]]]] = {}
-    for name, polynomials in (("numerator", value.num), ("denominator", value.den)):
+    for name, polynomials in ((said("numerator"), value.num), (said("denominator"), value.den)):
         at_origin = 0
         times: list[float] = []
         pairs: list[tuple[float, float]] = []
@@ -56,7 +57,9 @@ def plant_of(value: Value) -> Plant:
         found[name] = (at_origin, times, pairs)
     (zeros, leads, lead_pairs), (poles, lags, lag_pairs) = found["numerator"], found["denominator"]
     if zeros > poles:
-        raise InvalidParameter(f"numerator must not vanish at s = 0 (no gain to control with), found s^{zeros - poles}")
+        raise InvalidParameter(
+            said("numerator must not vanish at s = 0 (no gain to control with), found s^{zeros}", zeros=zeros - poles)
+        )
     return Plant(
         _float("k", gain),
         _float("theta", value.theta),
@@ -70,7 +73,7 @@ def plant_of(value: Value) -> Plant:
 
 def _time_constants(name: str, polynomial: Polynomial) -> tuple[list[float], list[tuple[float, float]]]:
     """Time constants and pairs of a polynomial with constant term 1; exact to the last bit up to degree 2."""
-    field = f"coefficient of the {name}"
+    field = said("coefficient of the {name}", name=name)
     if len(polynomial) == 1:
         return [], []
     if len(polynomial) == 2:
@@ -97,7 +100,13 @@ def _float(name: str, value: Fraction) -> float:
     try:
         return float(value)
     except OverflowError:
-        raise InvalidParameter(f"|{name}| must be <= {checks.LARGEST_GAIN:g}, found more than 1e308") from None
+        raise InvalidParameter(
+            said(
+                "|{name}| must be <= {largest_gain:g}, found more than 1e308",
+                name=name,
+                largest_gain=checks.LARGEST_GAIN,
+            )
+        ) from None
 
 
 def constant(number: Fraction) -> Value:
@@ -130,12 +139,12 @@ def degree(value: Value) -> int:
 def too_large(value: Value) -> str:
     """What is too large to go on working with, in words; empty if nothing is."""
     if len(value.num) > MOST_PARTS or len(value.den) > MOST_PARTS:
-        return f"a product must have at most {MOST_PARTS} factors"
+        return said("a product must have at most {most_parts} factors", most_parts=MOST_PARTS)
     for polynomial in (*value.num, *value.den):
         if len(polynomial) > checks.MOST_FACTORS + 1:
-            return f"the degree of a polynomial must be <= {checks.MOST_FACTORS}"
+            return said("the degree of a polynomial must be <= {most_factors}", most_factors=checks.MOST_FACTORS)
         if any(c.numerator.bit_length() + c.denominator.bit_length() > MOST_BITS for c in polynomial):
-            return "numbers here grow beyond all bounds"
+            return said("numbers here grow beyond all bounds")
     return ""
 
 

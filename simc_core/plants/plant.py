@@ -18,6 +18,14 @@ from simc_core import checks
 from simc_core.algebra.factors import Factored, factors
 from simc_core.algebra.polynomials import factorise
 from simc_core.errors import InvalidParameter
+from simc_core.wording import Text, joined, said
+
+INTEGRATING = (
+    said("integrating"),
+    said("double integrating"),
+    said("triple integrating"),
+    said("fourfold integrating"),
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,10 +81,20 @@ class Plant:
         put(self, "lead_pairs", _pairs("lead_pairs", self.lead_pairs))
         zeros, poles = len(self.leads) + 2 * len(self.lead_pairs), self.order
         if poles > checks.MOST_FACTORS:
-            raise InvalidParameter(f"a plant may have at most {checks.MOST_FACTORS} poles, found {poles}")
+            raise InvalidParameter(
+                said(
+                    "a plant may have at most {most_factors} poles, found {poles}",
+                    most_factors=checks.MOST_FACTORS,
+                    poles=poles,
+                )
+            )
         if zeros > poles:
             raise InvalidParameter(
-                f"degree of the numerator must be <= {poles}, that of the denominator, found {zeros}"
+                said(
+                    "degree of the numerator must be <= {poles}, that of the denominator, found {zeros}",
+                    poles=poles,
+                    zeros=zeros,
+                )
             )
 
     @classmethod
@@ -93,11 +111,14 @@ class Plant:
         cls, nums: Iterable[Iterable[float]], dens: Iterable[Iterable[float]], theta: float = 0.0
     ) -> "Plant":
         """prod(num_i)/prod(den_j) e^{-theta s}, each a polynomial; factors given apart stay exact."""
-        top, bottom = factorise("numerator", nums), factorise("denominator", dens)
+        top, bottom = factorise(said("numerator"), nums), factorise(said("denominator"), dens)
         integrators = bottom.at_origin - top.at_origin
         if integrators < 0:
             raise InvalidParameter(
-                f"numerator must not vanish at s = 0 (no gain to control with), found s^{-integrators}"
+                said(
+                    "numerator must not vanish at s = 0 (no gain to control with), found s^{integrators}",
+                    integrators=-integrators,
+                )
             )
         return cls(top.constant / bottom.constant, theta, bottom.times, top.times, integrators, bottom.pairs, top.pairs)
 
@@ -182,33 +203,31 @@ class Plant:
         return self.theta + sum(map(abs, self.lags)) + sum(tau for tau, _ in self.lag_pairs)
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> Text:
         """What kind of process it is, in words."""
         words = []
         if self.unstable_poles:
-            words.append("unstable")
+            words.append(said("unstable"))
         if self.integrators:
-            words.append(
-                ("integrating", "double integrating", "triple integrating", "fourfold integrating")[
-                    self.integrators - 1
-                ]
-            )
+            words.append(INTEGRATING[self.integrators - 1])
         if any(0 <= zeta < 0.7 for _, zeta in self.lag_pairs):
-            words.append("oscillating")
+            words.append(said("oscillating"))
         if not words:
             words.append(self._self_regulating_kind())
         if any(T < 0 for T in self.leads) or any(zeta < 0 for _, zeta in self.lead_pairs):
-            words.append("inverse response")
-        return ", ".join(words)
+            words.append(said("inverse response"))
+        return joined(words)
 
-    def _self_regulating_kind(self) -> str:
+    def _self_regulating_kind(self) -> Text:
         if self.slowest == 0:
-            return "pure dead time" if self.theta else "pure gain"
+            return said("pure dead time") if self.theta else said("pure gain")
         if self.theta == 0:
-            return "stable, no dead time"
+            return said("stable, no dead time")
         if self.theta > self.slowest:
-            return "stable, dead time dominant"
-        return "stable, lag dominant" if self.slowest >= 4 * self.theta else "stable, lag and dead time alike"
+            return said("stable, dead time dominant")
+        return (
+            said("stable, lag dominant") if self.slowest >= 4 * self.theta else said("stable, lag and dead time alike")
+        )
 
 
 def scaled(time: float, ratio: Fraction) -> float:
@@ -225,7 +244,9 @@ def _pairs(name: str, values: object) -> tuple[tuple[float, float], ...]:
     for i, value in enumerate(checks.items(name, values)):
         pair = checks.items(f"{name}[{i}]", value)
         if len(pair) != 2:
-            raise InvalidParameter(f"{name}[{i}] must be (tau, zeta), found {len(pair)} numbers")
+            raise InvalidParameter(
+                said("{name}[{i}] must be (tau, zeta), found {numbers} numbers", name=name, i=i, numbers=len(pair))
+            )
         tau = checks.positive_time(f"{name}[{i}] tau", pair[0])
         pairs.append((tau, checks.real(f"{name}[{i}] zeta", pair[1], -100.0, 100.0)))
     return tuple(pairs)

@@ -11,6 +11,7 @@ from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.plants.models import FirstOrderDelay, IntegratingDelay
 from simc_core.plants.plant import Plant, scaled
+from simc_core.wording import said
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +37,11 @@ class SettlingFacts:
         put(self, "t63", checks.optional_time("t63", self.t63))
         if not self.from_movement and self.t63 < self.theta:
             raise InvalidParameter(
-                f"t63 must be >= theta = {self.theta:g} where it counts from the step, found {self.t63:g}"
+                said(
+                    "t63 must be >= theta = {theta:g} where it counts from the step, found {t63:g}",
+                    theta=self.theta,
+                    t63=self.t63,
+                )
             )
         _ = self.model  # which has bounds of its own
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from simc_core.controllers.forms import IController, SeriesPid
 from simc_core.loops.loop import Loop
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 FIRST_ORDER = Loop(Plant(1, 1, (1,)), SeriesPid(0.5, 1))  # L = e^{-s}/(2 s)
 INTEGRATING = Loop(Plant(1, 1, integrators=1), SeriesPid(0.5, 8))
@@ -29,42 +30,42 @@ class TimeCase:
 
 TIME_CASES = (
     TimeCase(
-        "Lag dominant, τ = 8 θ",
+        said("Lag dominant, τ = 8 θ"),
         *(Plant(1, 1, (8,)), SeriesPid(4, 8, c=1)),
         *(9.0, 0.9984405033172123015873, 0.1036893305130427403986),
     ),
     TimeCase(
-        "Delay dominant, τ = 0.1 θ",
+        said("Delay dominant, τ = 0.1 θ"),
         *(Plant(1, 1, (0.1,)), SeriesPid(0.05, 0.1, c=1)),
         *(5.3, 1.034792039062500003064, -0.03045005103530858102086),
     ),
     TimeCase(
-        "Integrating",
+        said("Integrating"),
         *(Plant(1, 1, integrators=1), SeriesPid(0.5, 8, c=1)),
         *(12.0, 1.076433252791202915716, 0.5152505434265529397323),
     ),
     TimeCase(
-        "Two lags, PID with filter",
+        said("Two lags, PID with filter"),
         *(Plant(1, 1, (6, 3)), SeriesPid(3, 6, 3, 0.3, c=1)),
         *(8.1, 0.9878618531700845308026, 0.1583201063354427009485),
     ),
     TimeCase(
-        "Unstable, 1/(4s − 1)",
+        said("Unstable, 1/(4s − 1)"),
         *(Plant(-1, 1, (-4,)), SeriesPid(2.0, 20, c=1)),
         *(9.3, 1.916694589556226380332, 0.6796218770786712122774),
     ),
     TimeCase(
-        "Order 12, lags 0.01 to 100",
+        said("Order 12, lags 0.01 to 100"),
         *(Plant(1, 2, (100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1, 0.05, 0.01)), SeriesPid(2, 100, c=1)),
         *(60.0, 0.1200230400427599281473, 0.0530305838547057872708),
     ),
     TimeCase(
-        "1/(s + 1)⁸, no dead time",
+        said("1/(s + 1)⁸, no dead time"),
         *(Plant(1, 0, (1,) * 8), SeriesPid(0.2, 1.5, c=1)),
         *(12.0, 0.7126218242027221515155, 0.8466712866354586759385),
     ),
     TimeCase(
-        "RHP zero, pair of ζ = 0.2",
+        said("RHP zero, pair of ζ = 0.2"),
         *(Plant(1, 1, (2,), (-0.7,), 0, ((1, 0.2),)), SeriesPid(0.3, 2, c=1)),
         *(9.3, 0.8196850398551739865281, 0.3519073472032808533352),
     ),

@@ -12,6 +12,7 @@ from simc_core.errors import NotReducible
 from simc_core.notation import latex_number, number, times_s
 from simc_core.plants.plant import Plant
 from simc_core.reduction.records import BudgetEntry, Step
+from simc_core.wording import said
 
 OSCILLATING = 0.7  # damping below which a pair is not two lags any more
 SAME_FACTOR = 1e-9  # relative; a zero and a lag this close are one factor typed twice
@@ -49,7 +50,7 @@ def dynamics(plant: Plant) -> Dynamics:
         if zeta < OSCILLATING:
             kept.append((tau, zeta))
         else:
-            lags += _split_pair("poles", tau, zeta, steps)
+            lags += _split_pair(False, tau, zeta, steps)
     leads = list(plant.leads) + [T for T0, zeta in lead_pairs for T in _split_lead_pair(T0, zeta, steps)]
     lags, leads = _cancelled_lags(lags, leads, steps, cancelled)
     unstable = [-tau for tau in lags if tau < 0]
@@ -79,28 +80,50 @@ def _cancelled_pairs(
             left.append((tau, zeta))
             continue
         pairs.remove(same[0])
-        cancelled.append(BudgetEntry(f"pair {number(tau)}", "pair", tau, (("=", tau),)))
-        text = f"The complex zeros with tau = {number(tau)} cancel the complex poles with the same values."
+        cancelled.append(BudgetEntry(said("pair {tau}", tau=number(tau)), "pair", tau, (("=", tau),)))
+        text = said(
+            "The complex zeros with tau = {tau} cancel the complex poles with the same values.", tau=number(tau)
+        )
         steps.append(Step("cancel", text, "", {"tau": tau, "zeta": zeta}))
     return pairs, left, cancelled
 
 
-def _split_pair(what: str, tau: float, zeta: float, steps: list[Step]) -> list[float]:
+REAL_POLES = said(
+    "The poles with zeta = {zeta} >= 1 are real: time constants {first} and {second}.", zeta="", first="", second=""
+)
+REAL_ZEROS = said(
+    "The zeros with zeta = {zeta} >= 1 are real: time constants {first} and {second}.", zeta="", first="", second=""
+)
+EQUAL_POLES = said(
+    "The complex poles with zeta = {zeta} are damped enough (zeta >= {limit:g}) to be taken as two equal time "
+    "constants {tau}; this is an approximation.",
+    zeta="",
+    limit=OSCILLATING,
+    tau="",
+)
+EQUAL_ZEROS = said(
+    "The complex zeros with zeta = {zeta} are damped enough (zeta >= {limit:g}) to be taken as two equal time "
+    "constants {tau}; this is an approximation.",
+    zeta="",
+    limit=OSCILLATING,
+    tau="",
+)
+
+
+def _split_pair(of_zeros: bool, tau: float, zeta: float, steps: list[Step]) -> list[float]:
     """Two real time constants for a well damped pair, with a line about it."""
     square, middle = latex_number(tau * tau), times_s(latex_number(2 * zeta * tau))
     left = ("" if square == "1" else f"{square} ") + rf"s^2 + {middle} + 1"
     if zeta >= 1:
         large = tau * (zeta + math.sqrt(zeta * zeta - 1))
         times = [large, tau * tau / large]
-        both = f"{number(times[0])} and {number(times[1])}"
-        text = f"The {what} with zeta = {number(zeta)} >= 1 are real: time constants {both}."
+        text = (REAL_ZEROS if of_zeros else REAL_POLES).put(
+            zeta=number(zeta), first=number(times[0]), second=number(times[1])
+        )
         equation = rf"{left} = ({times_s(latex_number(times[0]))} + 1)({times_s(latex_number(times[1]))} + 1)"
     else:
         times = [tau, tau]
-        text = (
-            f"The complex {what} with zeta = {number(zeta)} are damped enough (zeta >= {OSCILLATING:g}) "
-            f"to be taken as two equal time constants {number(tau)}; this is an approximation."
-        )
+        text = (EQUAL_ZEROS if of_zeros else EQUAL_POLES).put(zeta=number(zeta), tau=number(tau))
         equation = rf"{left} \approx ({times_s(latex_number(tau))} + 1)^2"
     steps.append(Step("pair", text, equation, {"tau": tau, "zeta": zeta}))
     return times
@@ -109,12 +132,16 @@ def _split_pair(what: str, tau: float, zeta: float, steps: list[Step]) -> list[f
 def _split_lead_pair(T: float, zeta: float, steps: list[Step]) -> list[float]:
     if abs(zeta) < OSCILLATING:
         raise NotReducible(
-            f"complex zeros with |zeta| < {OSCILLATING:g} are not covered by the half rule, found zeta = "
-            f"{number(zeta)} with T = {number(T)}: fit a model without them to the step response, or tune by the "
-            "margins"
+            said(
+                "complex zeros with |zeta| < {oscillating:g} are not covered by the half rule, found zeta = "
+                "{zeta} with T = {T}: fit a model without them to the step response, or tune by the margins",
+                oscillating=OSCILLATING,
+                zeta=number(zeta),
+                T=number(T),
+            )
         )
     sign = math.copysign(1.0, zeta)
-    return [sign * time for time in _split_pair("zeros", T, abs(zeta), steps)]
+    return [sign * time for time in _split_pair(True, T, abs(zeta), steps)]
 
 
 def _cancelled_lags(
@@ -128,9 +155,9 @@ def _cancelled_lags(
             left.append(T)
             continue
         lags.remove(same[0])
-        cancelled.append(BudgetEntry(f"lag {number(T)}", "lag", T, (("=", T),)))
-        cancelled.append(BudgetEntry(f"zero {number(T)}", "lead", T, (("=", T),)))
-        text = f"The zero {number(T)} and the lag {number(T)} are equal and cancel exactly."
+        cancelled.append(BudgetEntry(said("lag {T}", T=number(T)), "lag", T, (("=", T),)))
+        cancelled.append(BudgetEntry(said("zero {T}", T=number(T)), "lead", T, (("=", T),)))
+        text = said("The zero {T} and the lag {T} are equal and cancel exactly.", T=number(T))
         factor = f"{times_s(latex_number(T))} + 1"
         steps.append(Step("cancel", text, rf"\frac{{{factor}}}{{{factor}}} = 1", {"T0": T, "tau0": T}))
     return lags, left
@@ -144,38 +171,61 @@ def _refuse(integrators: int, unstable: list[float], pairs: list[tuple[float, fl
     """What no SIMC model exists for, in words."""
     if integrators > 2:
         raise NotReducible(
-            f"integrators must be <= 2 for the half rule, found {integrators}: no SIMC rule exists beyond that; "
-            "close an inner loop round one of the integrators first (cascade)"
+            said(
+                "integrators must be <= 2 for the half rule, found {integrators}: no SIMC rule exists beyond "
+                "that; close an inner loop round one of the integrators first (cascade)",
+                integrators=integrators,
+            )
         )
     growing = [zeta for _, zeta in pairs if zeta < 0]
     if len(unstable) + 2 * len(growing) > 1:
         raise NotReducible(
-            f"at most one unstable pole is covered by a SIMC rule, found {len(unstable) + 2 * len(growing)}: "
-            "stabilise the plant by an inner loop first (cascade)"
+            said(
+                "at most one unstable pole is covered by a SIMC rule, found {unstable}: stabilise the plant by "
+                "an inner loop first (cascade)",
+                unstable=len(unstable) + 2 * len(growing),
+            )
         )
     if unstable and integrators:
         raise NotReducible(
-            f"an unstable pole together with integrators is not covered by a SIMC rule, found {integrators} of them: "
-            "stabilise the plant by an inner loop first (cascade)"
+            said(
+                "an unstable pole together with integrators is not covered by a SIMC rule, found {integrators} "
+                "of them: stabilise the plant by an inner loop first (cascade)",
+                integrators=integrators,
+            )
         )
     if not pairs:
         return
     tau0, zeta = pairs[0]
     if len(pairs) > 1:
         raise NotReducible(
-            f"at most one pair of poles with zeta < {OSCILLATING:g} is covered by a SIMC rule, found {len(pairs)}: "
-            "enter a model with the dominant pair alone, or damp the others by an inner loop"
+            said(
+                "at most one pair of poles with zeta < {oscillating:g} is covered by a SIMC rule, found {pairs}:"
+                " enter a model with the dominant pair alone, or damp the others by an inner loop",
+                oscillating=OSCILLATING,
+                pairs=len(pairs),
+            )
         )
     if unstable or integrators:
         raise NotReducible(
-            f"a pair of poles with zeta = {number(zeta)} < {OSCILLATING:g} must be the only slow dynamics, "
-            "found an integrator or an unstable pole beside it: enter a model without the pair if its oscillation "
-            "is fast, or damp it by an inner loop"
+            said(
+                "a pair of poles with zeta = {zeta} < {oscillating:g} must be the only slow dynamics, found an "
+                "integrator or an unstable pole beside it: enter a model without the pair if its oscillation is "
+                "fast, or damp it by an inner loop",
+                zeta=number(zeta),
+                oscillating=OSCILLATING,
+            )
         )
     slowest = max(lags, default=0.0)
     if slowest > tau0:
         raise NotReducible(
-            f"a pair of poles with zeta = {number(zeta)} < {OSCILLATING:g} must be the slowest dynamics for the rule "
-            f"of oscillating models, found tau0 = {number(tau0)} beside a lag of {number(slowest)}: "
-            "enter a model without the pair if its oscillation is small, or use tau_c large and check the margins"
+            said(
+                "a pair of poles with zeta = {zeta} < {oscillating:g} must be the slowest dynamics for the rule "
+                "of oscillating models, found tau0 = {tau0} beside a lag of {slowest}: enter a model without the"
+                " pair if its oscillation is small, or use tau_c large and check the margins",
+                zeta=number(zeta),
+                oscillating=OSCILLATING,
+                tau0=number(tau0),
+                slowest=number(slowest),
+            )
         )

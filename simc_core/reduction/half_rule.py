@@ -38,6 +38,7 @@ from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, Removal, re
 from simc_core.reduction.zeros_1998 import remove_leads_1998
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
+from simc_core.wording import said
 
 RULES = ("2003", "1998")
 MOST_PROBES = 400  # of theta; median 18 for two zeros, 100 for six, 240 for a dozen. Beyond this some may be missed
@@ -96,7 +97,7 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003",
     h, tau_F = checks.optional_time("h", h), checks.optional_time("tau_F", tau_F)
     late = h + tau_F
     if rules not in RULES:
-        raise InvalidParameter(f'rules must be "2003" or "1998", found {rules!r}')
+        raise InvalidParameter(said('rules must be "2003" or "1998", found {rules!r}', rules=rules))
     parts = dynamics(plant)
     removed = lru_cache(maxsize=None)(partial(_removed, parts))
     reduce = partial(_reduce, plant, parts, removed, late, rules)
@@ -148,9 +149,13 @@ def reduced_model(plant: Plant, order: int = 1) -> Model:
     >>> reduced_model(parse_plant("exp(-3s)/((6s+1)(4s+1)(2s+1))"))
     FirstOrderDelay(k=1.0, theta=7.0, tau1=8.0)
     """
+    return _remembered(plant, checks.whole("order", order, 1, 2))
+
+
+@lru_cache(maxsize=64)  # a cascade asks for the model of its inner block at every speed
+def _remembered(plant: Plant, order: int) -> Model:
     parts = dynamics(plant)
-    removed = partial(_removed, parts)
-    return _chosen(_reduce(plant, parts, removed, 0.0, "2003", checks.whole("order", order, 1, 2)))
+    return _chosen(_reduce(plant, parts, partial(_removed, parts), 0.0, "2003", order))
 
 
 def _chosen(reduced: _Reduced) -> Model:

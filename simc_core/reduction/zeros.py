@@ -24,6 +24,7 @@ from typing import NamedTuple
 
 from simc_core.errors import NotReducible
 from simc_core.notation import number
+from simc_core.wording import said
 
 CLOSE = 1.6  # a smaller lag counts as close to the zero below this ratio
 GUARD = 1e-9  # relative; 0.08/0.05 is 1.6 on paper and 1.5999999999999999 in doubles
@@ -192,6 +193,9 @@ def _smaller(index: int, T0: float, lag: Lag, comparisons: Comparisons) -> tuple
 def no_lag(T0: float) -> NotReducible:
     """The error for a zero T0 that nothing is left for."""
     return NotReducible(
-        f"zero with T = {number(T0)} has no lag left to be set against: the half rule does not cover this plant. "
-        "Tune on a model of your own (for instance a fit to the step response), or by the loop's margins"
+        said(
+            "zero with T = {T0} has no lag left to be set against: the half rule does not cover this plant. "
+            "Tune on a model of your own (for instance a fit to the step response), or by the loop's margins",
+            T0=number(T0),
+        )
     )

@@ -28,6 +28,7 @@ from simc_core.plants.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
+from simc_core.wording import said
 
 A_THETA_LIMIT = 0.5  # the rule for unstable poles ends here; the plant itself can be stabilised up to a theta = 1
 MULTIPLES = (1.0, 1.5, 2.0, 3.0)
@@ -69,7 +70,9 @@ def simc(model: Model, tau_c: float | None = None) -> SeriesPid | IdealPid | ICo
     (0.57, 8.0)
     """
     if not isinstance(model, Model):
-        raise InvalidParameter(f"model must be a reduced model, as half_rule makes it, found {type(model).__name__}")
+        raise InvalidParameter(
+            said("model must be a reduced model, as half_rule makes it, found {kind}", kind=type(model).__name__)
+        )
     if isinstance(model, UnstableDelay):
         return _unstable(model, tau_c)
     q = _tau_c(model.theta, tau_c) + model.theta
@@ -151,8 +154,12 @@ def unstable_factor(a_theta: float) -> float:
     a_theta = checks.real("a theta", a_theta, low=0.0)
     if a_theta >= A_THETA_LIMIT:
         raise InvalidParameter(
-            f"a theta must be < {A_THETA_LIMIT:g} for the SIMC rule of an unstable pole, found {a_theta:g}: "
-            "the dead time is too long for it"
+            said(
+                "a theta must be < {a_theta_limit:g} for the SIMC rule of an unstable pole, found {a_theta:g}: "
+                "the dead time is too long for it",
+                a_theta_limit=A_THETA_LIMIT,
+                a_theta=a_theta,
+            )
         )
     rest = 1 - 2 * a_theta
     return (1 + a_theta / (2 * rest)) / rest
@@ -162,13 +169,19 @@ def _tau_c(theta: float, tau_c: float | None) -> float:
     """tau_c checked; None becomes theta."""
     if tau_c is None:
         if theta == 0:
-            raise InvalidParameter("tau_c must be given for a model without dead time (theta = 0), found None")
+            raise InvalidParameter(said("tau_c must be given for a model without dead time (theta = 0), found None"))
         return theta
     number = checks.real("tau_c", tau_c, high=checks.LONGEST_TIME)
     if number <= -theta < 0:
-        raise InvalidParameter(f"tau_c must be > 0, and above -theta = {-theta:g} in any case, found {number:g}")
+        raise InvalidParameter(
+            said(
+                "tau_c must be > 0, and above -theta = {theta:g} in any case, found {number:g}",
+                theta=-theta,
+                number=number,
+            )
+        )
     if number <= 0:
-        raise InvalidParameter(f"tau_c must be > 0, found {number:g}")
+        raise InvalidParameter(said("tau_c must be > 0, found {number:g}", number=number))
     return checks.positive_time("tau_c", number)
 
 
@@ -181,8 +194,10 @@ def _stable(k: float, tau1: float, tau2: float, q: float) -> SeriesPid | IContro
 def _oscillating(model: OscillatingDelay, q: float) -> IdealPid:
     if model.zeta == 0:
         raise InvalidParameter(
-            "zeta must be > 0 for the SIMC rule, found 0: it cancels the poles, and undamped ones would ring for ever; "
-            "damp them by an inner loop first (cascade)"
+            said(
+                "zeta must be > 0 for the SIMC rule, found 0: it cancels the poles, and undamped ones would ring"
+                " for ever; damp them by an inner loop first (cascade)"
+            )
         )
     twice = 2 * model.zeta
     return IdealPid(twice * model.tau0 / (model.k * q), twice * model.tau0, model.tau0 / twice)
@@ -190,12 +205,18 @@ def _oscillating(model: OscillatingDelay, q: float) -> IdealPid:
 
 def _unstable(model: UnstableDelay, tau_c: float | None) -> SeriesPid:
     if model.theta == 0:
-        raise InvalidParameter("theta must be > 0 for the SIMC rule of an unstable pole (Kc = 0.5/(k' theta)), found 0")
+        raise InvalidParameter(
+            said("theta must be > 0 for the SIMC rule of an unstable pole (Kc = 0.5/(k' theta)), found 0")
+        )
     if tau_c is not None and not math.isclose(
         checks.real("tau_c", tau_c), model.theta, rel_tol=SAME_TAU_C, abs_tol=0.0
     ):
         raise InvalidParameter(
-            f"tau_c must be theta = {model.theta:g} for an unstable pole, found {tau_c:g}: the rule knows no other"
+            said(
+                "tau_c must be theta = {theta:g} for an unstable pole, found {tau_c:g}: the rule knows no other",
+                theta=model.theta,
+                tau_c=tau_c,
+            )
         )
     f = unstable_factor(model.a * model.theta)
     return SeriesPid(0.5 / (model.k_prime * model.theta), 8 * model.theta * f, model.tau2)

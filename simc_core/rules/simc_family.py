@@ -5,6 +5,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.plants.models import FirstOrderDelay, Model, SecondOrderDelay
 from simc_core.rules.simc import default_tau_c, simc, tau_c_multiples, tau_c_presets
 from simc_core.rules.simc_variants import improved_simc, isimc
+from simc_core.wording import said
 
 FAMILY = ("simc", "improved_simc", "isimc")
 ISIMC_TIGHT = 0.5  # tau_c/theta [GS18]
@@ -23,7 +24,9 @@ def settings_of(rule: str, model: Model, tau_c: float | None = None) -> Controll
         case "isimc":
             return isimc(model, "PID", tau_c)
         case _:
-            raise InvalidParameter(f"rule must be one of {', '.join(FAMILY)}, found {rule!r}")
+            raise InvalidParameter(
+                said("rule must be one of {family}, found {rule!r}", family=", ".join(FAMILY), rule=rule)
+            )
 
 
 def usual_tau_c(rule: str, model: Model) -> float:

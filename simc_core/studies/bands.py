@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass
 
 from simc_core.reduction.records import LARGEST_MS
+from simc_core.wording import Text, said
 
 ROBUST = 1.7  # Ms of the tight setting for an integrating process [SK03]
 SOLVED = 1e-6  # relative: a loop designed for Ms = 2 has it to this, and is not above 2
@@ -19,13 +20,13 @@ class Band:
 
     upto: float
     tone: str
-    words: str
+    words: Text
 
 
 BANDS = (
-    Band(ROBUST, "calm", f"robust (up to {ROBUST:g})"),
-    Band(LARGEST_MS, "attention", f"fair ({ROBUST:g} to {LARGEST_MS:g})"),
-    Band(math.inf, "alarm", f"fragile (above {LARGEST_MS:g}): L passes too close to −1"),
+    Band(ROBUST, "calm", said("robust (up to {robust:g})", robust=ROBUST)),
+    Band(LARGEST_MS, "attention", said("fair ({robust:g} to {largest:g})", robust=ROBUST, largest=LARGEST_MS)),
+    Band(math.inf, "alarm", said("fragile (above {largest:g}): L passes too close to −1", largest=LARGEST_MS)),
 )
 
 

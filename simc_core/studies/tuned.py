@@ -18,6 +18,7 @@ from simc_core.rules.simc_family import settings_of, usual_tau_c
 from simc_core.rules.speed import tau_c_in_use
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.wording import joined, said
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -113,7 +114,7 @@ def tuned(
     try:
         return _closed(plant, choices, reduction)
     except OutOfDomain as error:
-        raise RuleEnds(f"{error}; take SIMC itself", {"rule": "simc"}) from error
+        raise RuleEnds(said("{error}; take SIMC itself", error=str(error)), {"rule": "simc"}) from error
     except InvalidParameter as error:
         if isinstance(reduction.model, UnstableDelay):
             raise _no_setting(plant, choices, reduction.model, str(error)) from error
@@ -136,30 +137,44 @@ def _no_setting(plant: Plant, choices: dict[str, Any], model: UnstableDelay, err
     """Why the rule of an unstable pole ends here, and the order that has a setting, if the other one has."""
     if model.theta == 0:
         return RuleEnds(
-            "theta must be > 0 for the SIMC rule of an unstable pole, found 0: the gain would be without limit; "
-            "enter the dead time or the lag of the actuator as part of the plant"
+            said(
+                "theta must be > 0 for the SIMC rule of an unstable pole, found 0: the gain would be without limit; "
+                "enter the dead time or the lag of the actuator as part of the plant"
+            )
         )
     product = model.a * model.theta
     if product < A_THETA_LIMIT:
         return RuleEnds(error)
-    why = f"a theta must be < {A_THETA_LIMIT:g} for the SIMC rule of an unstable pole, found {number(product, 4)}: "
+    why = said(
+        "a theta must be < {limit:g} for the SIMC rule of an unstable pole, found {product}",
+        limit=A_THETA_LIMIT,
+        product=number(product, 4),
+    )
     added = model.theta - plant.theta
     if choices["order"] == 2 or not added > 0:
-        return RuleEnds(why + f"theta = {number(model.theta, 4)} is too long for a = {number(model.a, 4)}, shorten it")
-    why += (
-        f"order 1 adds {number(added, 4)} to the dead time {number(plant.theta, 4)} of the plant, "
-        "for its lags and zeros; "
+        theta, a = number(model.theta, 4), number(model.a, 4)
+        return RuleEnds(said("{why}: theta = {theta} is too long for a = {a}, shorten it", why=why, theta=theta, a=a))
+    why = said(
+        "{why}: order 1 adds {added} to the dead time {theta} of the plant, for its lags and zeros",
+        why=why,
+        added=number(added, 4),
+        theta=number(plant.theta, 4),
     )
     try:
         other = tuned(plant, **{**choices, "order": 2})
     except RuleEnds as refusal:
-        return RuleEnds(f"{why}for order 2: {refusal}")
+        return RuleEnds(said("{why}; for order 2: {refusal}", why=why, refusal=str(refusal)))
     except SimcError:
-        return RuleEnds(why + "shorten the dead time")
+        return RuleEnds(said("{why}; shorten the dead time", why=why))
     if not other.margins.stable:
-        return RuleEnds(why + "order 2 gives no stable loop either, shorten the dead time")
-    values = ", ".join(f"{name} = {number(value, 5)}" for name, value in other.controller.settings.items())
-    return RuleEnds(f"{why}take PID (order 2): {values}, Ms = {number(other.margins.Ms, 4)}", {"order": 2})
+        return RuleEnds(said("{why}; order 2 gives no stable loop either, shorten the dead time", why=why))
+    values = joined(
+        said("{name} = {value}", name=name, value=number(value, 5)) for name, value in other.controller.settings.items()
+    )
+    return RuleEnds(
+        said("{why}; take PID (order 2): {values}, Ms = {Ms}", why=why, values=values, Ms=number(other.margins.Ms, 4)),
+        {"order": 2},
+    )
 
 
 @lru_cache(maxsize=16)  # a second for a plant of forty poles, and every remedy that is tried asks for the same

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
-from tests.browser.tools import ARGS, PATIENCE, WIDTHS, Server, Tab, idle
+from tests.browser.tools import ARGS, CHROMIUM, PATIENCE, WIDTHS, Server, Tab, idle
 
 expect.set_options(timeout=1000 * PATIENCE)
 
@@ -37,8 +37,8 @@ def server() -> Iterator[str]:
 @pytest.fixture(scope="session")
 def chromium() -> Iterator[Browser]:
     """Debian's Chromium, headless."""
-    path = shutil.which("chromium")
-    assert path, "the browser tests need Chromium: apt-get install chromium"
+    path = shutil.which(CHROMIUM)
+    assert path, f"the browser tests need Chromium: apt-get install {CHROMIUM}"
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=path, args=ARGS)
         yield browser

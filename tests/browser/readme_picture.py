@@ -4,7 +4,7 @@ import shutil
 
 from playwright.sync_api import sync_playwright
 
-from tests.browser.tools import ARGS, ROOT, WIDTHS, Server, idle
+from tests.browser.tools import ARGS, CHROMIUM, ROOT, WIDTHS, Server, idle
 
 PLACE = "/tuning?plant=exp(-3s)/((6s%2B1)(4s%2B1)(2s%2B1))&order=2"
 WIDTH = 1280
@@ -15,7 +15,7 @@ def main() -> None:
     server = Server()
     try:
         with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=ARGS)
+            browser = playwright.chromium.launch(executable_path=shutil.which(CHROMIUM), args=ARGS)
             page = browser.new_page(viewport={"width": WIDTH, "height": WIDTHS[WIDTH]})
             page.goto(server.url + PLACE)
             idle(page, settle=2.0)

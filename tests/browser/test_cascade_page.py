@@ -51,7 +51,7 @@ def test_from_a_pair_of_the_paper_to_a_link_that_opens_the_same_cascade(server, 
     link = page.locator(".st-key-address_text pre").inner_text()
     again = open_page(re.sub(r"^http://[^/]+", fresh_server(), link))
     tab(again, "Figures")
-    assert again.locator(".strip").inner_text() == page.locator(".strip").inner_text()
+    expect(again.locator(".strip")).to_have_text(page.locator(".strip").inner_text(), use_inner_text=True)
     assert again.locator(".diagram .wide").text_content() == page.locator(".diagram .wide").text_content()
 
 

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.tools import PATIENCE, WIDTHS, choose, idle, picture, watch
+from tests.browser.tools import PATIENCE, WIDTHS, choose, idle, picture, wait_until, watch
 
 PLANT = "2,2 e^{-1,5s}/(12,5s+1)"  # °C per %, minutes
 NOW = 0.8, 9.0  # Kc in %/°C and tau_I in min, as they are in the plant
 THETA, LONGER = 1.5, 1.3
+CLIPBOARD = "navigator.clipboard.readText()"
 
 
 def peak(Kc: float, tau_I: float, theta: float) -> float:
@@ -163,8 +164,8 @@ def test_the_whole_path(server, fresh_server, engineers):
 
     # the link, elsewhere
     page.locator(".st-key-address_text").get_by_role("button", name="Copy").click()
-    page.wait_for_timeout(200)
-    link = page.evaluate("navigator.clipboard.readText()")
+    wait_until(page, lambda: page.evaluate(CLIPBOARD).startswith("http"), "the link is copied")  # the plant was there
+    link = page.evaluate(CLIPBOARD)
     elsewhere = engineers(re.sub(r"^http://[^/]+", fresh_server(), link))
     at_rest(elsewhere)
     assert everything(elsewhere) == mine

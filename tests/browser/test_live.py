@@ -119,7 +119,7 @@ def test_the_nyquist_panel_stays_one_to_one_when_the_window_changes(server, open
     for width, height in ((1280, 1200), (1000, 700), (1900, 1000)):
         page.set_viewport_size({"width": width, "height": height})
         page.wait_for_timeout(800)
-        assert circle(page) == pytest.approx(1, rel=0.03), (width, height)
+        wait_until(page, lambda: circle(page) == pytest.approx(1, rel=0.03), f"1:1 at {width} x {height}")
 
 
 def test_the_released_number_is_the_exact_one(server, open_page):

@@ -34,6 +34,20 @@ def test_a_gap_of_days_costs_nothing(theta, gap, moves, seed):
         assert best.parameters[name] == pytest.approx(value, rel=0.05, abs=0.2)
 
 
+@pytest.mark.parametrize("factor", [10, 30, 100, 300, 1000])
+@pytest.mark.parametrize("theta", [1.0, 4.0, 15.0, 45.0])
+def test_a_gap_of_many_times_the_test_leaves_the_gain_alone(factor, theta):
+    """Dead times are short against the gap: 1/15000 to 1/33 of it; a grid that spans the gap misses them."""
+    for seed in (1, 2):
+        trend = two_tests(theta, factor * 150.0, 1 + seed, seed)
+        found = {one.structure: one for one in identify_all(trend, ("FOPDT", "SOPDT"))}
+        one = found["FOPDT"]
+        for name, value in {"k": K, "theta": theta, "tau1": TAU1}.items():
+            assert abs(one.parameters[name] - value) < 4 * one.standard_errors[name]
+        assert one.parameters["k"] == pytest.approx(K, rel=0.03)
+        assert found["SOPDT"].parameters["k"] == pytest.approx(K, rel=0.03)
+
+
 def test_a_mean_of_neighbours_takes_in_no_gap():
     record = as_record(two_tests(2.0, 1e6, 3, 5, n=997), False).reduced(100)
     edge = 996 * 0.5

@@ -77,6 +77,8 @@ def test_a_known_sign_is_held():
     assert identify(trend, sign=-1).parameters["k"] == pytest.approx(-1, rel=1e-3)
     with pytest.raises(NotIdentifiable, match="against the sign given"):
         identify(trend, sign=1)
+    with pytest.raises(InvalidParameter, match="sign must be 1 or -1"):
+        identify(trend, sign=0)
 
 
 def test_too_few_samples():
@@ -89,6 +91,8 @@ def test_something_that_is_no_trend():
         identify([[0, 1, 2]])
     with pytest.raises(InvalidParameter, match="empty"):
         identify([])
+    with pytest.raises(InvalidParameter, match="at least one"):
+        identify_all(Trend(range(40), range(40), [0] * 20 + [1] * 20), ())
 
 
 def steps(sizes, gains, noise=0.02, seed=0) -> Trend:

@@ -9,12 +9,14 @@ from simc_core import (
     NotIdentifiable,
     Plant,
     Trend,
+    WrongType,
     identify,
     identify_all,
     margins,
     ms_of_cloud,
     robust_tau_c,
     simc,
+    uncertainty_of,
 )
 from simc_core.identification.cloud import clouds
 from tests.identification.simulated import rise
@@ -94,5 +96,18 @@ def test_bounds():
     found = identify(trend(0.01))
     with pytest.raises(InvalidParameter, match=r"Ms must be >= 1\.05"):
         robust_tau_c(found, Ms=1.0)
-    with pytest.raises(InvalidParameter, match="tau_c must be positive"):
+    with pytest.raises(InvalidParameter, match="tau_c"):
         ms_of_cloud(found, [0.0])
+    with pytest.raises(InvalidParameter, match="found 2e\\+09"):  # the one that is wrong, not the smallest
+        ms_of_cloud(found, [1.0, 2e9])
+    with pytest.raises(InvalidParameter, match="1 to 100"):
+        ms_of_cloud(found, [])
+
+
+@pytest.mark.parametrize("given", [None, (), "FOPDT", 3.0])
+def test_settings_are_those_of_something_fitted(given):
+    for ask in (ms_of_cloud, robust_tau_c):
+        with pytest.raises(WrongType, match="identify or identify_all"):
+            ask(given)
+        with pytest.raises(WrongType, match="identify or identify_all"):
+            ask(uncertainty_of(identify(trend(0.01))))  # an uncertainty alone has no settings of its own

@@ -71,17 +71,55 @@ def test_a_run_that_was_stopped_goes_on(loops, tmp_path):
 def test_a_tag_that_is_there_twice_is_done_twice(tmp_path):
     rows = [{"tag": "A", "k": k, "theta": 1, "tau1": 8} for k in (1, 2)]
     path = tmp_path / "results.csv"
-    with ResultsFile(path) as file:
+    with ResultsFile(path, rows) as file:
         file.write(tune_chunk(rows)[0])
-    with ResultsFile(path) as file:
-        assert list(file.left(rows)) == rows[1:]
+    assert ResultsFile(path, rows).left == rows[1:]
+    with ResultsFile(path, rows) as file:
+        file.write(tune_chunk(rows)[1])
+    assert ResultsFile(path, rows).left == []
+
+
+def test_a_row_that_was_mended_is_done_again(loops, tmp_path, capsys):
+    """As its refusal asks for; what stays as it was is kept, and so are loops of another list."""
+    out = tmp_path / "out"
+    main(["many", str(loops), "-o", str(out)])
+    before = lines(out / "results.csv")
+    loops.write_text(loops.read_text(encoding="utf-8").replace(",,x,1,1", ",,3,1,1"), encoding="utf-8")
+    capsys.readouterr()
+    assert main(["many", str(loops), "-o", str(out)]) == 0
+    said = capsys.readouterr().out
+    assert "8 are in" in said
+    assert "1 have changed" in said
+    assert "9 loops, 9 tuned" in said
+    after = lines(out / "results.csv")
+    assert after[:-1] == [line for line in before if line["tag"] != EVIL]
+    assert float(after[-1]["Kc"]) == pytest.approx(1 / (3 * 2))  # tau1/(k 2 theta)
+    other = tmp_path / "other.csv"
+    other.write_text("tag,k,theta,tau1\nnew,1,1,8\n")
+    main(["many", str(other), "-o", str(out)])
+    assert [line["tag"] for line in lines(out / "results.csv")] == [*(line["tag"] for line in after), "new"]
+
+
+def test_variants_that_are_asked_for_later_come(loops, tmp_path):
+    main(["many", str(loops), "-o", str(tmp_path)])
+    assert not any(line["variants_stable"] for line in lines(tmp_path / "results.csv"))
+    main(["many", str(loops), "-o", str(tmp_path), "--variants", "3"])
+    assert sum(bool(line["variants_stable"]) for line in lines(tmp_path / "results.csv")) == 8
+
+
+@pytest.mark.parametrize("number", ["-1", "100000"])
+def test_bounds_of_the_options(number, loops, tmp_path, capsys):
+    assert main(["many", str(loops), "-o", str(tmp_path), "--jobs", number]) == 1
+    assert "jobs must be" in capsys.readouterr().err
+    assert main(["many", str(loops), "-o", str(tmp_path), "--variants", number]) == 1
+    assert "variants must be" in capsys.readouterr().err
 
 
 def test_another_file_is_not_written_to(tmp_path):
     path = tmp_path / "results.csv"
     path.write_text("mine\n1\n")
     with pytest.raises(InvalidParameter, match="file of results"):
-        ResultsFile(path)
+        ResultsFile(path, [])
     assert path.read_text() == "mine\n1\n"
 
 

@@ -8,11 +8,11 @@ from multiprocessing import get_context
 import pytest
 
 from simc_core import tune_many
-from simc_core.errors import WrongType
+from simc_core.errors import InvalidParameter, WrongType
 from simc_core.many import run
 from simc_core.many.processes import Processes
 from tests.many.lists import mixed_rows
-from tests.many.workers import ends_its_process, fails_together, hangs, killed_once
+from tests.many.workers import divides_by_zero, ends_its_process, fails_together, hangs, killed_once
 
 ROW = {"k": 1, "theta": 1, "tau1": 8}
 
@@ -114,3 +114,15 @@ def test_rows_are_read_as_they_are_asked_for():
 def test_an_executor_that_is_none():
     with pytest.raises(WrongType, match="submit or map"):
         tune_many([], executor=3)
+
+
+@pytest.mark.parametrize("chunk", [0, -3, 1001, 2.5])
+def test_a_chunk_out_of_bounds_is_refused_and_loses_no_row(chunk):
+    with pytest.raises(InvalidParameter, match="chunk"):
+        tune_many([ROW], chunk=chunk)
+
+
+@pytest.mark.parametrize("executor", [None, Client(), Mapper()])
+def test_a_fault_of_a_tune_is_told_as_one(executor):
+    (result,) = tune_many([ROW], executor, tune=divides_by_zero)
+    assert result.refusal == "a fault of this program, not of the row: ZeroDivisionError: division by zero"

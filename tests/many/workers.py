@@ -40,3 +40,8 @@ def fails_together(rows):
     if len(rows) > 1:
         raise InvalidParameter("together")
     return tune_chunk(rows)
+
+
+def divides_by_zero(rows):
+    """A fault in the tune itself."""
+    return [1 / 0 for _ in rows]

@@ -391,3 +391,9 @@ def test_slower_loops_that_are_proposed_are_stable_and_come_to_rest():
         followed += 1
     assert followed > 5
     assert refused <= followed / 5
+
+
+def test_a_cascade_too_large_for_the_slider_says_when_its_curves_come():
+    many = "+".join(f"1/(s+{i})" for i in range(1, 38))
+    app = opened("Live", Ga=many)
+    assert "Curves come when the slider of the inner or the outer loop is released" in texts(app)

@@ -112,3 +112,12 @@ def test_a_table_can_be_left_half_way():
     with pytest.raises(KeyboardInterrupt):
         cascade_table.table(subject, grid, "outer", pause)
     assert len(calls) == 10
+
+
+def test_a_table_is_left_out_where_its_work_is_not_worth_it(monkeypatch):
+    """One second for a look at one speed, of 25 at least: nothing is computed behind the second look."""
+    _, subject, grid = made(Cascade())
+    seconds = iter(range(100))
+    monkeypatch.setattr(cascade_rows, "thread_time", lambda: float(next(seconds)))
+    assert cascade_table.table(subject, grid, "inner", nothing) == b""
+    assert next(seconds) == 3  # begun, and asked before each of two looks

@@ -2,6 +2,8 @@
 
 import pytest
 
+from pages.common.from_data import graphical_view, tuning_view
+
 from .tools import address, fold, run_page, unfold
 
 PLANT = "2 exp(-3 s)/(20 s + 1)"
@@ -48,3 +50,18 @@ def test_a_link_fills_a_sheet_that_was_never_opened():
     unfold(app, "sheet")
     assert app.text_input(key="widget_tag").value == "TIC 7"
     assert app.text_input(key="widget_PV_high").value == "200"
+
+
+def test_what_costs_on_a_record_is_computed_when_it_is_opened(monkeypatch):
+    """The curve of Ms over tau_c, and what is read off by hand, with the margins of its settings."""
+    asked = []
+    for room, name in ((tuning_view, "ms_of_cloud"), (graphical_view, "by_hand")):
+        made = getattr(room, name)
+        monkeypatch.setattr(room, name, lambda *given, made=made, name=name: (asked.append(name), made(*given))[1])
+    app = run_page("from_data", example="step")
+    assert not asked
+    assert len(app.get("plotly_chart")) == 1
+    unfold(app, "Ms_against_tau_c", "by_hand")
+    assert set(asked) == {"ms_of_cloud", "by_hand"}
+    assert len(app.get("plotly_chart")) == 2
+    assert any("two-point" in str(table.value) for table in app.dataframe)

@@ -29,7 +29,7 @@ RISE = 50 + 2 * rise(T - 24, 12.0) + NOISE
 BACK = np.where(np.arange(N) < 300, T, T - 150)
 CASES = {
     "OP never moves": (table(t=T, PV=RISE, OP=np.full(N, 40.0)), "OP never moves"),
-    "no OP": (table(t=T, SP=np.full(N, 50.0), PV=RISE), "no column is the controller output"),
+    "no OP": (table(t=T, SP=np.full(N, 50.0), PV=RISE), "No column is the controller output"),
     "load at constant set point": (table(t=T, SP=LOADED.r + 50, PV=LOADED.y + 50, OP=LOADED.u + 40), "loop was closed"),
     "closed at constant set point": (
         table(t=T, PV=loop(np.zeros(N), NOISE).y, OP=loop(np.zeros(N), NOISE).u),

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from pages.common.from_data import figure
 from pages.common.parts import panel
 
 from .tools import run_page
@@ -18,11 +19,15 @@ PAGES = {
     "rules": ("rules", ""),
     "cascade": ("cascade", "Figures", "cascade_views"),
     "windup": ("cascade", "Windup", "cascade_views"),
+    "record": ("from_data", ""),
+    "auto-tuning": ("from_data", "Auto-tuning", "ways"),
 }
+RECORD = {"example": "noisy", "begin": "10.0", "bad": "100~120"}
 
 
 def drawn(page: str, *view: str) -> list[dict]:
-    app = run_page(page, *view, plant="2 exp(-3s)/((20s+1)(4s+1))", noise="0.02", unit="min", PV_unit="<b>")
+    here = {"plant": "2 exp(-3s)/((20s+1)(4s+1))", "noise": "0.02", "unit": "min", "PV_unit": "<b>"}
+    app = run_page(page, *view, **(RECORD if page == "from_data" else here))
     return [without_nothing(json.loads(chart.proto.spec)) for chart in app.get("plotly_chart")]
 
 
@@ -34,6 +39,7 @@ def without_nothing(figure: dict) -> dict:
 @pytest.mark.parametrize("where", PAGES)
 def test_every_figure_is_what_plotly_makes_of_it(monkeypatch, where):
     ours = drawn(*PAGES[where])
-    monkeypatch.setattr(panel, "ReadyFigure", lambda figure: figure)
+    for room in (panel, figure):
+        monkeypatch.setattr(room, "ReadyFigure", lambda drawn: drawn)
     assert ours == drawn(*PAGES[where])
     assert ours

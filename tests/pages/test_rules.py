@@ -312,3 +312,9 @@ def test_the_page_opens_on_every_preset(name):
     app = rules(compared_plant=name)
     assert not app.exception
     assert ("Settings printed in" in texts(app)) == bool(USUAL[name].printed)
+
+
+def test_what_is_said_of_SIMC_is_true_of_an_oscillating_plant_too():
+    """[SK03 Table 1]: tau_I = 2 zeta tau0 there, of which the limit 4 (tau_c + theta) says nothing."""
+    told = texts(run_page("rules", plant="exp(-s)/(4s^2+0.4s+1)", compared_kind="PID"))
+    assert "For lags and integrators $\\tau_I \\le 4(\\tau_c + \\theta)$" in told

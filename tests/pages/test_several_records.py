@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pages.common.session import links
+from pages.common.session.time_unit import in_time_unit
 from tests.identification.simulated import rise
 from tests.pages.tools import address, run_page, texts
 
@@ -96,3 +97,31 @@ def test_one_operating_point_makes_none():
     paste(app, record(30, 2.0), 0)
     assert any(re.search("A gain schedule needs two", item.value) for item in app.caption)
     assert not [button for button in app.button if button.key == "tune_points"]
+
+
+def test_gains_that_differ_are_told_with_the_offer_of_a_schedule_and_on_the_tuning_page():
+    app = two(k=1.0)
+    assert "from record to record, 1 from 60 to 70 in record 2 and 2 from 30 to 40 in record 1" in texts(app)
+    assert "Record 2: `pasted rows`" in texts(app)
+    assert not [button for button in app.button if button.key == "tune_points"]
+    assert "Not for gains that differ" in texts(app)
+    app.button(key="to_points").click().run()
+    assert not app.exception
+    assert app.button(key="tune_points")
+    app = two(k=1.0)
+    app.button(key="tune").click().run()
+    here = address(app)
+    design, ignored = links.decode(here)
+    assert not ignored
+    assert design.origin.gains == pytest.approx((1, 2), rel=0.02)
+    assert in_time_unit(design, "min").origin.gains == design.origin.gains
+    tuning = run_page("tuning", **here)
+    assert any("show gains of 1" in item.value and "gain schedule" in item.value for item in tuning.warning)
+
+
+def test_equal_gains_are_offered_no_schedule():
+    app = two()
+    assert "gain differs" not in texts(app)
+    assert not [button for button in app.button if button.key == "to_points"]
+    app.button(key="tune").click().run()
+    assert not run_page("tuning", **address(app)).warning

@@ -5,6 +5,8 @@ sum over k, i of (-1)^k binomial(k, i) Lb^k (Ca Ga)^i e^{-(k theta_b + i theta_a
 k theta_b + i theta_a < t matter. Each is inverted on a Talbot contour by mpmath arithmetic; no code is shared.
 """
 
+from functools import cache
+
 import mpmath
 import numpy as np
 import pytest
@@ -50,15 +52,17 @@ def pid(settings, s, b=1, c=1):
     return (b * k + ki / s + c * kd * s) / (Tf * s + 1)
 
 
-def contour(t, nodes):
-    """Nodes and weights of the fixed Talbot method (Abate and Valko 2004)."""
-    r = mpmath.mpf(2 * nodes) / (5 * t)
-    yield r, mpmath.exp(r * t) / 2 * r / nodes
+@cache
+def contour(nodes):
+    """Nodes and weights of the fixed Talbot method (Abate and Valko 2004), for t = 1: for others divided by t."""
+    r = mpmath.mpf(2 * nodes) / 5
+    found = [(r, mpmath.exp(r) / 2 * r / nodes)]
     for j in range(1, nodes):
         angle = j * mpmath.pi / nodes
         cot = mpmath.cot(angle)
-        s = r * angle * (cot + 1j)
-        yield s, mpmath.exp(s * t) * (1 + 1j * (angle + (angle * cot - 1) * cot)) * r / nodes
+        z = r * angle * (cot + 1j)
+        found.append((z, mpmath.exp(z) * (1 + 1j * (angle + (angle * cot - 1) * cot)) * r / nodes))
+    return found
 
 
 def series(pair: int, t: float) -> np.ndarray:
@@ -75,10 +79,11 @@ def series(pair: int, t: float) -> np.ndarray:
                 if later <= 0:
                     continue
                 sign = (-1) ** k * mpmath.binomial(k, i)
-                for s, weight in contour(later, MORE_NODES if pair == 9 else NODES):
+                for z, weight in contour(MORE_NODES if pair == 9 else NODES):
+                    s = z / later
                     ga, gb, cb = rational(Ga, s), rational(Gb, s), pid(Cb, s)
                     ca, car = pid(Ca, s), pid(Ca, s, b, 0)
-                    term = sign * (cb * gb) ** k * (ca * ga) ** i / s * weight
+                    term = sign * (cb * gb) ** k * (ca * ga) ** i / z * weight
                     for (row, column), value in numerators(shift, ga, gb, ca, car, cb).items():
                         total[row, column] += (term * value).real
     return np.array(total.tolist(), dtype=float)

@@ -35,7 +35,7 @@ def blocks() -> None:
             folded = st.popover(label, help=f"Enter the {title}", key=f"enter_{name}", on_change="rerun")
             if folded.open:
                 with folded:
-                    plant_entry(name, title)
+                    plant_entry(name, f"Enter the {title} as")
                     st.button(
                         "Take G of the other pages",
                         key=f"take_{name}",

@@ -4,13 +4,11 @@ from typing import Any
 
 import streamlit as st
 
-from pages.common.from_data.record_view import in_units
+from pages.common.from_data import figure
 from pages.common.from_data.send import plain_unit, send
 from pages.common.from_data.work import Fits, Work, kept, nearly
-from pages.common.parts.figure_words import in_words
 from pages.common.parts.symbols import sentence
 from simc_core import AutoTuned, Identified, Trend, auto_tune, frequency_band
-from simc_core.figures import config
 from simc_core.figures.uncertain import band_bode_figure
 from simc_core.notation import number
 
@@ -33,9 +31,8 @@ def show(work: Work, trend: Trend, fits: Fits, model: Identified) -> None:
     if band is None:
         st.caption(sentence(why))
         return
-    figure = in_units(band_bode_figure(band, HEIGHT), trend)
     alt = "Frequency response of the process with its 95 % band"
-    st.plotly_chart(figure, key="figure_band", config=config("frequency response"), alt=in_words(alt, figure))
+    figure.show(band_bode_figure(band, HEIGHT), trend, "figure_band", "frequency response", alt)
     nominal, low, high = band.omega_180
     said = ""
     if nominal == nominal and low == low:

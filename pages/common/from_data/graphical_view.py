@@ -14,17 +14,23 @@ CITED = {"S72": "Smith 1972", "ZN42": "Ziegler and Nichols 1942", "AH95": "Åstr
 
 def graphical(part: Trend, model: Identified) -> None:
     """Two-point, tangent and areas, and what Ms their settings have on the fitted plant."""
-    with st.expander("Read off by hand: two-point, tangent, areas"):
-        try:
-            found = by_hand(part)
-        except NotIdentifiable as error:
-            st.caption(sentence(str(error)) + ".")
-            return
-        st.dataframe([_row(each, model) for each in found], hide_index=True, width="stretch", height="content")
-        st.caption(
-            "From the move of OP with the longest rest after it. Last column: the PI settings by SIMC with τc = θ of "
-            "that method, on the plant that was fitted."
-        )
+    folded = st.expander("Read off by hand: two-point, tangent, areas", key="by_hand", on_change="rerun")
+    if folded.open:
+        with folded:
+            _table(part, model)
+
+
+def _table(part: Trend, model: Identified) -> None:
+    try:
+        found = by_hand(part)
+    except NotIdentifiable as error:
+        st.caption(sentence(str(error)) + ".")
+        return
+    st.dataframe([_row(each, model) for each in found], hide_index=True, width="stretch", height="content")
+    st.caption(
+        "From the move of OP with the longest rest after it. Last column: the PI settings by SIMC with τc = θ of "
+        "that method, on the plant that was fitted."
+    )
 
 
 def _row(each: ByHand, model: Identified) -> dict[str, str]:

@@ -16,8 +16,8 @@ TOLD = "from_data_controller"
 
 
 def known_controller(work: Work) -> None:
-    """Fields for the controller, where SP and PV are there and OP is not; or what was told of it."""
-    if work.reading.roles.get("OP") or not work.reading.roles.get("SP"):
+    """Fields for the controller, where OP can be computed from it."""
+    if not work.reading.computable:
         return
     st.markdown("**Closed loop, the controller known?** OP can be computed from it.")
     given: dict[str, float | None] = state.lasting(TOLD, dict)

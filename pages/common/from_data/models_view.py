@@ -6,12 +6,15 @@ from time import monotonic
 
 import streamlit as st
 
-from pages.common.from_data.work import MORE, USUAL, Fits, Work
+from pages.common.from_data import points_view
+from pages.common.from_data.work import MORE, Fits, Work
 from pages.common.parts.structures import TITLES, sign_of
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
 from pages.common.session.design import Design
 from simc_core import Identified, Trend
+from simc_core.identification.judgement.gain_per_move import disagreement
+from simc_core.identification.rank import USUAL
 from simc_core.notation import number
 
 FORMULAS = {
@@ -90,14 +93,16 @@ def ranking(fits: Fits, model: Identified, trend: Trend) -> None:
         )
 
 
-def card(model: Identified, trend: Trend) -> None:
-    """The model with its 95 % intervals, and the verdicts."""
+def card(model: Identified, trend: Trend, names: list[str]) -> None:
+    """The model with its 95 % intervals, and the verdicts.   names: of the records it was fitted to."""
     st.markdown(f"$\\displaystyle G(s) = {FORMULAS[model.structure]}$")
     cells = "".join(_cell(name, model, trend) for name in model.parameters)
     slope = ""
     if model.slope is not None and "tau1" in model.parameters:
         value, error = model.slope
-        slope = _cell_html("k/τ₁", number(value), f"± {number(1.96 * error, 2)}", _unit("k_prime", trend))
+        slope = _cell_html(
+            "k/τ₁", number(value), f"± {number(model.estimate.half_width * error, 2)}", _unit("k_prime", trend)
+        )
     label = "Parameters of the model with 95 % intervals"
     st.html(f'<div class="typed model" role="group" aria-label="{label}">{cells}{slope}</div>')
     facts = [f"fit {100 * model.fit:.1f} %", f"{model.predicted.size} samples", f"noise {number(model.noise, 2)}"]
@@ -107,19 +112,29 @@ def card(model: Identified, trend: Trend) -> None:
     if model.verdicts:
         with st.container(key="verdicts"):
             st.warning("\n".join(f"- {sentence(verdict)}" for verdict in model.verdicts))
+    apart = disagreement(model.gains)
+    if apart is not None and apart.kind == "gain":
+        st.button(
+            "A model for each operating point",
+            key="to_points",
+            icon=":material/arrow_forward:",
+            type="tertiary",
+            on_click=lambda: state.set_widget("ways", points_view.TITLE),
+        )
     if len(model.gains) > 1:
-        _gains(model, trend)
+        _gains(model, trend, names)
 
 
-def _gains(model: Identified, trend: Trend) -> None:
+def _gains(model: Identified, trend: Trend, names: list[str]) -> None:
     with st.expander("Gain of each move"):
         unit = trend.units.get("t", "")
         rows = [
-            {
+            ({"record": f"{each.record + 1}: {names[each.record]}"} if len(names) > 1 else {})
+            | {
                 f"t [{unit}]" if unit else "t": number(each.t),
                 "OP": f"{number(each.before)} → {number(each.after)}",
                 "gain": number(each.gain),
-                "± (95 %)": number(1.96 * each.standard_error, 2),
+                "± (95 %)": number(model.estimate.half_width * each.standard_error, 2),
             }
             for each in model.gains
         ]

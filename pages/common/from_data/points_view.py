@@ -7,17 +7,19 @@ from pages.common.from_data.work import Fits, Work, kept
 from pages.common.parts.symbols import sentence
 from pages.common.session.home import MOST_POINTS, Home, Point
 from simc_core import Identified, OperatingPoint, SimcError, Trend, operating_points
+from simc_core.identification.judgement.verdicts import disagree
 from simc_core.notation import number
 
 STRUCTURES = ("FOPDT", "SOPDT", "IPDT")  # of which a schedule can be made
 BY = ("OP", "PV")
+TITLE = "Operating points"
 
 
 def show(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified) -> None:
     """Models move by move, of all records that are here; a button takes them to the gain schedule."""
     structure = model.structure if model.structure in STRUCTURES else "FOPDT"
     with st.spinner("Fitting each move"):
-        found, why = kept(fits, ("points", structure), lambda: operating_points([part, *work.along()[0]], structure))
+        found, why = kept(fits, ("points", structure), lambda: operating_points(work.parts(part), structure))
     if found is None:
         st.warning(sentence(why))
         return
@@ -29,6 +31,9 @@ def show(work: Work, trend: Trend, part: Trend, fits: Fits, model: Identified) -
         )
         return
     st.caption("Each move of OP by itself, up and back together. ±: 95 %.")
+    for each in found:
+        for said in disagree(each.identified.gains):
+            st.warning(sentence(f"OP {number(each.OP, 3)}: {said}"))
     with st.container(key="send_points", horizontal=True, gap="small", vertical_alignment="bottom"):
         by = st.segmented_control("Schedule on", BY, default=BY[0], required=True, key="points_by")
         points, refused = _points(found, by)
@@ -64,7 +69,7 @@ def _row(each: OperatingPoint, trend: Trend) -> dict[str, str]:
         "PV": number(each.PV, 3),
         "moves": str(each.moves),
         gain.replace("_prime", "'"): number(p[gain]),
-        "±": number(1.96 * errors[gain], 2),
+        "±": number(each.identified.estimate.half_width * errors[gain], 2),
         f"θ{time}": number(p["theta"], 3),
     }
     return row | {f"{label}{time}": number(p[name], 3) for name, label in (("tau1", "τ₁"), ("tau2", "τ₂")) if name in p}

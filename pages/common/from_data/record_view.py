@@ -4,16 +4,14 @@ from typing import Any
 
 import streamlit as st
 
+from pages.common.from_data.figure import show
 from pages.common.from_data.work import ends_of, moves_of
-from pages.common.parts.figure_words import in_words
 from pages.common.parts.number_field import number_field
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.record import MOST_BAD
 from simc_core import Identified, SimcError, Trend, checks
-from simc_core.figures import config
-from simc_core.figures.palette import Figure
 from simc_core.figures.trend import trend_figure
 from simc_core.notation import number
 
@@ -38,30 +36,17 @@ def figure(trend: Trend, design: Design, part: Trend | None, model: Identified |
     name = "PV, OP" if trend.r is None else "PV, SP, OP"
     told = " and the model with its residuals" if fitted else ""
     alt = f"Record of {name} over {number(trend.span)} {trend.units.get('t', '')}{told}"
-    found = in_units(found, trend)
     turn = state.lasting(TURN, lambda: 0)  # a fresh figure after each range that was drawn: nothing stays selected
     key = f"figure_trend_{turn}"
     drag = state.widget("drag_does", ZOOM)
     found["layout"] |= {"dragmode": "select", "selectdirection": "h"}
     pick: dict[str, Any] = {"on_select": lambda: _drawn(trend, key, turn, drag), "selection_mode": "box"}
     with st.container(key="figure_trend"):
-        st.plotly_chart(found, key=key, config=config("trend"), alt=in_words(alt, found), **pick)
+        show(found, trend, key, "trend", alt, **pick)
     with st.container(horizontal=True, vertical_alignment="bottom"):
         st.segmented_control("Dragging on the record", DRAGS, default=ZOOM, required=True, key="drag_does")
         if shown:
             st.button("Whole record", key="whole_record", on_click=state.make_last, args=(SHOWN, (None, None)))
-
-
-def in_units(found: Figure, trend: Trend) -> Figure:
-    """Axes with the units of the record, which are foreign text: plain signs alone."""
-    units = {"time unit": trend.units.get("t"), "unit of y": trend.units.get("y"), "unit of u": trend.units.get("u")}
-    for name, axis in found["layout"].items():
-        if name[1:5] == "axis":
-            for place, unit in units.items():
-                if unit:
-                    plain = "".join(c for c in unit if c.isalnum() or c in "%°/·⁻²³ ()")[:16]
-                    axis["title"]["text"] = axis["title"]["text"].replace(place, plain)
-    return found
 
 
 def choose_part(trend: Trend, design: Design) -> None:

@@ -9,6 +9,7 @@ from pages.common.session.sheet import LONGEST, TIME_UNITS
 from pages.common.shell import header
 from simc_core import Identified, Trend, checks
 from simc_core.controllers.forms import Controller
+from simc_core.identification.judgement.gain_per_move import disagreement
 
 
 def plain_unit(trend: Trend) -> str:
@@ -34,8 +35,15 @@ def send(
     chosen = state.design_now().record
     with explain_refusal():
         state.begin_loop(model.plant, mine=True)
+        apart = disagreement(model.gains)
         origin = Origin(
-            state.plant(), model.structure, errors, min(model.fit, 1.0), int(model.predicted.size), _source(work)
+            state.plant(),
+            model.structure,
+            errors,
+            min(model.fit, 1.0),
+            int(model.predicted.size),
+            _source(work),
+            () if apart is None else tuple(float(f"{each.gain:.4g}") for each in (apart.low, apart.high)),
         )
         units = {
             "unit": plain_unit(trend),
@@ -59,5 +67,5 @@ def send(
 
 
 def _source(work: Work) -> str:
-    more = len(work.along()[0])
+    more = len(work.names()) - 1
     return f"{work.name} and {more} more" if more else work.name

@@ -124,14 +124,17 @@ def beside(work: Work, design: Design) -> None:
     """The records that are fitted along: each can be shown instead, or taken out."""
     if not work.beside:
         return
-    st.markdown("**Fitted together with**")
-    for i, other in enumerate(work.beside):
+    st.markdown("**Fitted together with** (record 1 is the one that is shown)")
+    along = work.along()
+    for i, other in enumerate(along):
         with st.container(key=f"beside_{i}", horizontal=True, gap="small", vertical_alignment="center"):
-            st.markdown(exact(other.name), width="stretch")
+            place = f"Record {other.number}: " if other.number else ""
+            st.markdown(f"{place}{exact(other.name)}", width="stretch")
             st.button("Show", key=f"show_{i}", on_click=_show, args=(work, i, design.record))
             st.button("Remove", key=f"remove_{i}", on_click=work.beside.pop, args=(i,))
-    for why in work.along()[1]:
-        st.warning(told(why))
+    for other in along:
+        if other.part is None:
+            st.warning(f"{exact(other.name)} is not fitted along: {told(other.why)}")
 
 
 def _show(work: Work, i: int, chosen: Chosen) -> None:

@@ -2,14 +2,13 @@
 
 import streamlit as st
 
-from pages.common.from_data.record_view import in_units
+from pages.common.from_data import figure
 from pages.common.from_data.send import plain_unit, send
 from pages.common.from_data.work import Fits, Work, kept, nearly
-from pages.common.parts.figure_words import in_words
 from pages.common.parts.symbols import sentence
 from simc_core import Identified, Trend, ms_of_cloud, robust_tau_c
-from simc_core.figures import config
 from simc_core.figures.trend import tau_c_figure
+from simc_core.identification.judgement.gain_per_move import disagreement
 from simc_core.notation import number, rounded_up
 from simc_core.studies.bands import ROBUST
 
@@ -39,10 +38,14 @@ def show(work: Work, trend: Trend, fits: Fits, model: Identified) -> None:
             if st.button(label, type="primary", key="tune_robust"):
                 send(work, trend, model, fits, slow)
         label = "Tune this model, τc = θ" if slower else "Tune this model"
-        if st.button(label, type="secondary" if slower else "primary", key="tune"):
+        if not (slower and model.model.theta == 0) and st.button(
+            label, type="secondary" if slower else "primary", key="tune"
+        ):
             send(work, trend, model, fits)
-    with st.expander("Ms against τc"):
-        _curve(fits, several, limit, tau_c, trend)
+    folded = st.expander("Ms against τc", key="Ms_against_tau_c", on_change="rerun")
+    if folded.open:
+        with folded:
+            _curve(fits, several, limit, tau_c, trend)
 
 
 def _say(tau_c: float, limit: float, model: Identified, trend: Trend, structures: int) -> None:
@@ -52,9 +55,10 @@ def _say(tau_c: float, limit: float, model: Identified, trend: Trend, structures
     times = f" = {many} θ" if many not in ("", "1") else " = θ" if many else ""
     others = {1: "", 2: ", and another structure that fits nearly as well"}
     besides = others.get(structures, f", and {structures - 1} other structures that fit nearly as well")
+    apart = " Not for gains that differ from move to move." if disagreement(model.gains) else ""
     st.markdown(
         f"With $\\tau_c$ = {size}{times} or slower, $M_s \\le$ {limit:g} holds with a probability of 95 % for "
-        f"all that the record leaves open: the errors of the model{besides}."
+        f"all that the record leaves open: the errors of the model{besides}.{apart}"
     )
 
 
@@ -66,8 +70,7 @@ def _curve(fits: Fits, several: tuple[Identified, ...], limit: float, tau_c: flo
     theta = several[0].model.theta
     marked = [("θ", theta)] if theta else []
     marked += [("95 %", tau_c)] if tau_c and tau_c > 1.05 * theta else []
-    figure = tau_c_figure(found.tau_c, found.quantile(0.5), found.quantile(PROBABILITY), limit, marked, HEIGHT)
+    drawn = tau_c_figure(found.tau_c, found.quantile(0.5), found.quantile(PROBABILITY), limit, marked, HEIGHT)
     alt = "Ms against tau_c: median and the value that is not passed with 95 %"
-    figure = in_units(figure, trend)
-    st.plotly_chart(figure, key="figure_tau_c", config=config("Ms of tau_c"), alt=in_words(alt, figure))
+    figure.show(drawn, trend, "figure_tau_c", "Ms of tau_c", alt)
     st.caption("SIMC settings of the model, on plants drawn from its errors. Dashed: not passed with 95 %.")

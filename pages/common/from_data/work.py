@@ -1,5 +1,6 @@
 """The record that is being worked on: read once, then cut, cleaned and fitted. Pure: no streamlit."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -11,10 +12,10 @@ from simc_core.identification.moves import Move
 from simc_core.identification.reading.meaning import Reading, understand
 from simc_core.identification.reading.reader import load
 from simc_core.identification.reading.table import Table
+from simc_core.identification.uncertainty import NEAR
 
 OF_A_FILE = ("decimal", "day_first", "sheet")  # what a file must be read anew for
-USUAL = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag")
-NEAR = 6.0  # of the criterion: structures that fit nearly as well are part of what is not known
+ARGUMENT = re.compile(r", \w+=\.\.\.")
 MORE = ("inverse", "oscillating", "DIPDT", "unstable")
 
 
@@ -29,6 +30,20 @@ class Fits:
     found: tuple[Identified, ...] = ()
     why: str = ""
     known: dict[tuple[Any, ...], tuple[Any, str]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Along:
+    """A record beside another.
+
+    part: of it that is fitted along.   number: its place among the records that are fitted, from 2; 0 where it is not.
+    why: there is no part.
+    """
+
+    name: str
+    part: Trend | None
+    number: int
+    why: str
 
 
 @dataclass(slots=True)
@@ -57,6 +72,11 @@ class Work:
         """The whole record."""
         return self.reading.trend
 
+    @property
+    def refusal(self) -> str:
+        """Why there is no trend; what the library calls the argument that helps is a field of the page."""
+        return ARGUMENT.sub("", self.reading.refusal)
+
     def answer(self, name: str, value: Any) -> None:
         """Take an answer and understand the record anew. Raises SimcError, and then nothing has changed."""
         how = self.how | {name: value}
@@ -69,26 +89,32 @@ class Work:
     def part(self, chosen: Chosen) -> tuple[Trend | None, str]:
         """The part that is fitted; None, and why, where there is none."""
         if self.trend is None:
-            return None, self.reading.refusal
+            return None, self.refusal
         try:
             return _cut(self.trend, chosen), ""
         except SimcError as error:
             return None, str(error)
 
-    def along(self) -> tuple[list[Trend], list[str]]:
-        """The parts of the records beside this one; and, in words, which of them cannot be fitted along, and why."""
-        found, left = [], []
+    def along(self) -> list["Along"]:
+        """The records beside this one, in order, with the part of each that is fitted along, or why there is none."""
+        found: list[Along] = []
         unit = self.trend.units.get("t", "") if self.trend is not None else ""
         for other in self.beside:
             part, why = other.part(other.chosen)
-            if part is None:
-                left.append(f"{other.name}: {why}")
-            elif part.units.get("t", "") != unit:
+            if part is not None and part.units.get("t", "") != unit:
                 own = part.units.get("t") or "no unit"
-                left.append(f"{other.name} is not fitted along: its time is in {own}, here in {unit or 'no unit'}")
-            else:
-                found.append(part)
-        return found, left
+                part, why = None, f"its time is in {own}, here in {unit or 'no unit'}"
+            fitted = sum(each.part is not None for each in found)
+            found.append(Along(other.name, part, 2 + fitted if part is not None else 0, why))
+        return found
+
+    def parts(self, own: Trend) -> list[Trend]:
+        """All that is fitted together, `own` of this record the first."""
+        return [own, *(each.part for each in self.along() if each.part is not None)]
+
+    def names(self) -> list[str]:
+        """Names of the records that are fitted together, in the same order."""
+        return [self.name, *(each.name for each in self.along() if each.part is not None)]
 
     def shown_instead(self, i: int, chosen: Chosen) -> "Work":
         """The record beside this one that is to be shown; this one, of which `chosen` was chosen, is beside it then."""
@@ -109,7 +135,7 @@ class Work:
         if self.fits is None or not self.is_fitted(chosen, structures):
             of = self._asked(chosen, structures)
             try:
-                self.fits = Fits(of, identify_all([trend, *self.along()[0]], structures, progress=progress))
+                self.fits = Fits(of, identify_all(self.parts(trend), structures, progress=progress))
             except SimcError as error:
                 self.fits = Fits(of, why=str(error))
         return self.fits

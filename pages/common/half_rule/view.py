@@ -12,23 +12,31 @@ from pages.common.parts.symbols import sentence, symbols
 from pages.common.parts.units import time_text, with_plain_unit
 from pages.common.session import state
 from pages.common.studies.single import Study
+from pages.common.words import number, translated, typeset, words
 from simc_core.figures import bode_figure, budget_figure, model_error_figure, plant_step_figure
-from simc_core.notation import latex, latex_number, number
+from simc_core.notation import latex, latex_number
 from simc_core.reduction.model_error import ModelError, model_error
 from simc_core.reduction.records import Reduction
+from simc_core.wording import Text, said
 
 HEIGHT, TALL = 260, 400  # px
 ORDERS = {1: "1 (PI)", 2: "2 (PID)"}
+FAST = said(
+    "**Made for fast control.** The model keeps the beginning of the response, not its steady state: the rules for "
+    "zeros hold at the frequencies of the tight loop. The tuning page judges the loop around the full plant"
+)
 VERDICTS = {
-    "good": (st.success, "**Good enough.** The error uses at most half of what this loop can bear"),
+    "good": (st.success, said("**Good enough.** The error uses at most half of what this loop can bear")),
     "usable": (
         st.info,
-        "**Usable.** Stability is guaranteed; the response will differ visibly from the model's",
+        said("**Usable.** Stability is guaranteed; the response will differ visibly from the model's"),
     ),
     "not certain": (
         st.warning,
-        "**Not guaranteed.** The model error exceeds the bound; the bound is sufficient, not necessary: "
-        "the tuning page judges the loop around the full plant",
+        said(
+            "**Not guaranteed.** The model error exceeds the bound; the bound is sufficient, not necessary: the tuning "
+            "page judges the loop around the full plant"
+        ),
     ),
 }
 
@@ -36,32 +44,44 @@ VERDICTS = {
 def choices() -> None:
     """Order, sampling period, set of rules; what theta allows for."""
     row = st.container(horizontal=True, vertical_alignment="bottom", gap="medium")
-    row.segmented_control("Order of the model", list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
+    row.segmented_control(words("Order of the model"), list(ORDERS), format_func=ORDERS.get, **state.bound("order"))
     design_number(
         "sampling",
-        "Sampling period",
+        words("Sampling period"),
         quantity="time",
         key="half_rule_sampling",
         place=row,
         under=st.container(),
         width=170,
-        help="Of a digital controller, the same on all pages; 0: continuous.",
+        help=words("Of a digital controller, the same on all pages; 0: continuous."),
     )
     rules_choice(row)
     with st.container(horizontal=True, vertical_alignment="center", gap="medium"):
         design = state.design_now()
         if design.actuator.h:
-            _allowed("h", design.actuator.h, "Half the sampling period counts as dead time")
+            _allowed(
+                "h",
+                said("Half the sampling period counts as dead time: {time}", time=_half(design.actuator.h)),
+                design.actuator.h,
+            )
         if design.tuning.tau_F:
-            _allowed("tau_F", design.tuning.tau_F, "Half the filter time of the box counts as dead time")
+            _allowed(
+                "tau_F",
+                said("Half the filter time of the box counts as dead time: {time}", time=_half(design.tuning.tau_F)),
+                design.tuning.tau_F,
+            )
 
 
-def _allowed(name: str, time: float, words: str) -> None:
+def _half(time: float) -> str:
+    return time_text(time / 2, state.design_now().sheet)
+
+
+def _allowed(name: str, label: Text, time: float) -> None:
     """Whether theta allows for a time; on, it is that time."""
     key = f"allowed_{name}"
     state.set_widget(key, bool(state.value(name)))
     st.checkbox(
-        f"{words}: {time_text(time / 2, state.design_now().sheet)}",
+        translated(label),
         key=key,
         on_change=lambda: state.overtaken(key) or state.change(**{name: time if state.widget(key) else 0.0}),
     )
@@ -76,31 +96,34 @@ def story(reduction: Reduction) -> None:
 
 def steps(reduction: Reduction) -> None:
     """What was done, in order, each line with its equation."""
-    st.latex(f"G(s) \\approx {latex(reduction.model)}")
+    st.latex(typeset(f"G(s) \\approx {latex(reduction.model)}"))
     with st.container(border=True, key="story"):
         for i, step in enumerate(reduction.steps, start=1):
-            st.markdown(f"{i}. {symbols(step.text)}" + (f"  \n   ${step.equation}$" if step.equation else ""))
-    st.caption(linked("[SK03 eq. 10-11 and rules T1-T3; V06 eq. 15-17]"))
+            st.markdown(f"{i}. {symbols(step.text)}" + (f"  \n   ${typeset(step.equation)}$" if step.equation else ""))
+    st.caption(linked(words("[SK03 eq. 10-11 and rules T1-T3; V06 eq. 15-17]")))
 
 
 def budget(reduction: Reduction) -> None:
     """A bar per lag, zero and dead time: what became of it."""
-    st.markdown("**Where each time constant goes**")
-    show(budget_figure(reduction), "budget", "What became of every lag, zero and dead time")
+    st.markdown(words("**Where each time constant goes**"))
+    show(budget_figure(reduction), "budget", words("What became of every lag, zero and dead time"))
 
 
 def candidates(reduction: Reduction) -> None:
     """Other self-consistent dead times, and why this one."""
     if len(reduction.candidates) < 2:
         return
-    st.markdown("**More than one effective dead time satisfies the rules**")
+    st.markdown(words("**More than one effective dead time satisfies the rules**"))
+    none = words("none", context="load error")
     st.dataframe(
         [
             {
                 with_plain_unit("θ", state.design_now().sheet.time_unit): number(each.theta),
-                "Ms, tight loop around the plant": number(each.Ms) if math.isfinite(each.Ms) else "no stable loop",
-                "load error at Ms = 1.6": number(each.load_error, 3) if math.isfinite(each.load_error) else "none",
-                "taken": "chosen" if each.chosen else "",
+                words("Ms, tight loop around the plant"): number(each.Ms)
+                if math.isfinite(each.Ms)
+                else words("no stable loop"),
+                words("load error at Ms = 1.6"): number(each.load_error, 3) if math.isfinite(each.load_error) else none,
+                words("taken"): words("chosen") if each.chosen else "",
             }
             for each in reduction.candidates
         ],
@@ -108,8 +131,10 @@ def candidates(reduction: Reduction) -> None:
         width="content",
     )
     st.caption(
-        "Chosen: the θ > 0 whose SIMC loop around the full plant has the least load error $\\tau_I/K_c$ at Ms = 1.6; "
-        "where no loop has that Ms, the smallest θ with Ms ≤ 2 at τc = θ."
+        words(
+            "Chosen: the θ > 0 whose SIMC loop around the full plant has the least load error $\\tau_I/K_c$ "
+            "at Ms = 1.6; where no loop has that Ms, the smallest θ with Ms ≤ 2 at τc = θ."
+        )
     )
 
 
@@ -117,23 +142,29 @@ def comparison(study: Study) -> None:
     """Reduced against full model: over time, over frequency, and in numbers."""
     compared = model_error(study.loop.plant, study.model, study.controller)
     step, bode, error = st.tabs(
-        ["Step response", "Bode", "Error over frequency"], key="comparison", on_change="rerun"
+        [words("Step response"), words("Bode"), words("Error over frequency")], key="comparison", on_change="rerun"
     )  # only the open one is made
     if step.open:
         with step:
             figure = plant_step_figure(compared.step, compared.model_step, HEIGHT)
-            show(figure, "steps", "Step responses of plant and model")
+            show(figure, "steps", words("Step responses of plant and model"))
     if bode.open:
         with bode:
-            show(bode_figure(study.loop.plant, study.model.plant, TALL), "bodes", "Bode diagrams of plant and model")
+            show(
+                bode_figure(study.loop.plant, study.model.plant, TALL),
+                "bodes",
+                words("Bode diagrams of plant and model"),
+            )
     if error.open:
         with error:
             figure = model_error_figure(compared.omega, compared.error, compared.bound, HEIGHT)
-            show(figure, "error", "Relative model error")
+            show(figure, "error", words("Relative model error"))
             st.caption(
                 linked(
-                    "The loop designed on the model $G_r$ is stable around $G$ where "
-                    "$|G - G_r|/|G_r| < 1/|T|$ at all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
+                    words(
+                        "The loop designed on the model $G_r$ is stable around $G$ where $|G - G_r|/|G_r| < 1/|T|$ at "
+                        "all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
+                    )
                 )
             )
     numbers(compared)
@@ -143,23 +174,28 @@ def numbers(compared: ModelError) -> None:
     """The error as numbers, and what they mean."""
     unit = state.design_now().sheet.time_unit
     frequency = f" rad/{unit}" if unit else ""
-    fraction = "" if math.isnan(compared.step_fraction) else f", {number(100 * compared.step_fraction, 3)} % of $k$"
-    st.markdown(
-        f"Largest difference of the step responses **{number(compared.step_difference, 3)}**{fraction}, "
-        f"at $t = {latex_number(compared.step_time, 3)}${unit and ' '}{unit}."
-    )
-    place, words = VERDICTS[compared.verdict]
-    share = (
-        ""
-        if math.isnan(compared.used)
-        else (
-            f": at worst $|G - G_r|\\,|T|/|G_r|$ = {number(compared.used, 3)} at $\\omega = "
-            f"{latex_number(compared.omega_used, 3)}${frequency}, limit 1 {linked('[RMS86 eq. 10]')}."
+    values = {
+        "difference": number(compared.step_difference, 3),
+        "share": number(100 * compared.step_fraction, 3),
+        "time": f"$t = {typeset(latex_number(compared.step_time, 3))}${unit and ' '}{unit}",
+    }
+    if math.isnan(compared.step_fraction):
+        st.markdown(words("Largest difference of the step responses **{difference}**, at {time}.", **values))
+    else:
+        st.markdown(
+            words("Largest difference of the step responses **{difference}**, {share} % of $k$, at {time}.", **values)
         )
-    )
+    place, verdict = VERDICTS[compared.verdict]
     if compared.error[0] >= 1:
-        words = (
-            "**Made for fast control.** The model keeps the beginning of the response, not its steady state: the rules "
-            "for zeros hold at the frequencies of the tight loop. The tuning page judges the loop around the full plant"
-        )
-    place(words + (share or ": the loop around the model itself is not stable."))
+        verdict = FAST
+    if math.isnan(compared.used):
+        place(words("{verdict}: the loop around the model itself is not stable.", verdict=verdict))
+        return
+    told = words(
+        "{verdict}: at worst {error} = {used} at {place}, limit 1 [RMS86 eq. 10].",
+        verdict=verdict,
+        error=r"$|G - G_r|\,|T|/|G_r|$",
+        used=number(compared.used, 3),
+        place=f"$\\omega = {typeset(latex_number(compared.omega_used, 3))}${frequency}",
+    )
+    place(linked(told))

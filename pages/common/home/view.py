@@ -8,6 +8,7 @@ from pages.common.parts.sources import linked
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
 from pages.common.shell import header
+from pages.common.words import translated, words
 from simc_core import SimcError, parse_plant
 from simc_core.plants.examples import EXAMPLES, Example
 from simc_core.plants.plant import Plant
@@ -18,15 +19,17 @@ def my_plant() -> None:
     with st.form("my_plant", border=True):
         text, button = st.columns([5, 1], vertical_alignment="bottom")
         typed = text.text_input(
-            "Your process as a transfer function, time constants in your own unit",
+            words("Your process as a transfer function, time constants in your own unit"),
             placeholder="2.2 exp(-20s)/(180s+1)",
             key="home_plant",
         )
-        tune = button.form_submit_button("Tune", type="primary", width="stretch")
+        tune = button.form_submit_button(words("Tune"), type="primary", width="stretch")
     st.caption(
-        "Dead time exact, negative gain, integrators and unstable poles included; a decimal comma is understood. "
-        "Without a transfer function: *Plant* takes gain, dead time and time constants one by one, *From data* a "
-        "recorded step test."
+        words(
+            "Dead time exact, negative gain, integrators and unstable poles included; a decimal comma is "
+            "understood. Without a transfer function: *Plant* takes gain, dead time and time constants one "
+            "by one, *From data* a recorded step test."
+        )
     )
     if tune:
         try:
@@ -44,15 +47,15 @@ def cards(examples: tuple[Example, ...], name: str) -> None:
         for example in examples:
             with st.container(border=True, height="stretch", vertical_alignment="distribute"):
                 st.markdown(f"${fitted(example.plant)}$")
-                st.caption(linked(symbols(f"{example.note} {example.source}")))
-                if st.button(example.name, key=f"example_{example.key}", width="stretch"):
+                st.caption(linked(f"{symbols(example.note)} {symbols(example.source)}"))
+                if st.button(translated(example.name), key=f"example_{example.key}", width="stretch"):
                     with explain_refusal():
                         _begin(example.plant, mine=False)
 
 
 def papers() -> None:
     """The examples of the papers, by name."""
-    folded = st.expander("Examples of the papers", key="papers", on_change="rerun")
+    folded = st.expander(words("Examples of the papers"), key="papers", on_change="rerun")
     if folded.open:
         with folded:
             cards(EXAMPLES, "papers")

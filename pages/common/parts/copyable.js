@@ -3,6 +3,7 @@ export default function ({ parentElement, data }) {
   const box = parentElement.querySelector("pre");
   const button = parentElement.querySelector("button");
   box.textContent = data.text;
+  button.textContent = data.copy;
   button.onclick = async () => {
     getSelection().selectAllChildren(box);
     try {
@@ -10,7 +11,7 @@ export default function ({ parentElement, data }) {
     } catch {
       document.execCommand("copy");
     }
-    button.textContent = "Copied";
-    setTimeout(() => (button.textContent = "Copy"), 1500);
+    button.textContent = data.copied;
+    setTimeout(() => (button.textContent = data.copy), 1500);
   };
 }

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import streamlit as st
 
+from pages.common.words import words
+
 HERE = Path(__file__).parent
 _component = st.components.v2.component(
     "simc_copyable",
@@ -23,4 +25,4 @@ def copyable(text: str, key: str) -> None:
     key : str
         Name of the widget, its own on the page.
     """
-    _component(key=key, data={"text": text})
+    _component(key=key, data={"text": text, "copy": words("Copy"), "copied": words("Copied")})

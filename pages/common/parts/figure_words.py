@@ -5,12 +5,15 @@ from typing import Any
 
 import numpy as np
 
+from pages.common.words import number, translated, words
 from simc_core.figures import Figure
-from simc_core.notation import number
+from simc_core.wording import said
 
 MOST = 8  # curves or groups of points that are told
 MOST_POINTS = 4  # of one group
 DIGITS = 3
+HIGHEST = said("highest {y} at {across} {x}", y="", across="", x="")
+LOWEST = said("lowest {y} at {across} {x}", y="", across="", x="")
 
 
 def in_words(title: str, figure: Figure) -> str:
@@ -21,8 +24,8 @@ def in_words(title: str, figure: Figure) -> str:
     traces = [trace for trace in figure["data"] if trace.get("name") and trace.get("visible") != "legendonly"]
     traces = [trace for trace in traces if trace.get("hoverinfo") != "skip"] or traces
     names = [trace["name"] for trace in traces]
-    told = [words for trace in traces if (words := _trace(trace, figure["layout"], names.count(trace["name"]) > 1))]
-    more = f"and {len(told) - MOST} more" if len(told) > MOST else ""
+    told = [each for trace in traces if (each := _trace(trace, figure["layout"], names.count(trace["name"]) > 1))]
+    more = words("and {n} more", n=len(told) - MOST) if len(told) > MOST else ""
     return ". ".join([title, *told[:MOST], *([more] if more else [])]) + "."
 
 
@@ -39,7 +42,11 @@ def _trace(trace: dict[str, Any], layout: dict[str, Any], again: bool) -> str:
     across, up = (_axis(layout, trace.get(f"{side}axis", side)) for side in "xy")
     if "lines" not in trace.get("mode", "lines"):
         points = [f"{_text(a)}, {_text(b)}" for a, b in zip(x, y, strict=True)][:MOST_POINTS]
-        return f"{name}: {len(x)} points" if len(x) > MOST_POINTS else f"{name} at {' and at '.join(points)}"
+        return (
+            words("{name}: {n} points", name=name, n=len(x))
+            if len(x) > MOST_POINTS
+            else words("{name} at {points}", name=name, points=words(" and at ").join(points))
+        )
     try:
         return f"{name}{f', {up}' if again else ''}: {_curve(x.astype(float), y.astype(float), across, up)}"
     except (TypeError, ValueError):  # dates or words on an axis
@@ -50,19 +57,31 @@ def _curve(x: np.ndarray, y: np.ndarray, across: str, up: str) -> str:
     known = np.isfinite(x) & np.isfinite(y)
     x, y = x[known], y[known]
     if not len(x):
-        return "nothing"
+        return words("nothing")
     if np.any(np.diff(x) < 0) and np.any(np.diff(x) > 0):
-        return f"{across} from {_text(x.min())} to {_text(x.max())}, {up} from {_text(y.min())} to {_text(y.max())}"
+        return words(
+            "{across} from {left} to {right}, {up} from {low} to {high}",
+            across=across,
+            left=_text(x.min()),
+            right=_text(x.max()),
+            up=up,
+            low=_text(y.min()),
+            high=_text(y.max()),
+        )
     if y.max() == y.min():
-        return f"{_text(y[0])} throughout"
+        return words("{y} throughout", y=_text(y[0]))
     high, low = int(np.argmax(y)), int(np.argmin(y))
     inner = [
-        f"{word} {_text(y[at])} at {across} {_text(x[at])}"
-        for word, at in (("highest", high), ("lowest", low))
+        translated(told.put(y=_text(y[at]), across=across, x=_text(x[at])))
+        for told, at in ((HIGHEST, high), (LOWEST, low))
         if y[at] not in (y[0], y[-1])
     ]
     return ", ".join(
-        [f"from {_text(y[0])} at {across} {_text(x[0])}", *inner, f"to {_text(y[-1])} at {across} {_text(x[-1])}"]
+        [
+            words("from {y} at {across} {x}", y=_text(y[0]), across=across, x=_text(x[0])),
+            *inner,
+            words("to {y} at {across} {x}", y=_text(y[-1]), across=across, x=_text(x[-1])),
+        ]
     )
 
 
@@ -74,5 +93,5 @@ def _axis(layout: dict[str, Any], name: str) -> str:
 
 def _text(value: object) -> str:
     if isinstance(value, int | float | np.number):
-        return number(float(value), DIGITS) if math.isfinite(float(value)) else "infinite"
+        return number(float(value), DIGITS) if math.isfinite(float(value)) else words("infinite")
     return str(value)

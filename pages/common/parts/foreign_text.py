@@ -7,7 +7,12 @@ message that may quote it, only plain words and numbers stay outside. Whatever e
 
 import re
 
-WORD = re.compile(r"\(?[^\W\d_]+(?:-[^\W\d_]+)*\)?[,;:?]?\.?|\(?-?[0-9]+(?:\.[0-9]+)?(?:e[-+]?[0-9]+)?(?:\)\.?)?[,;:]?")
+from pages.common.words import translated
+
+WORD = re.compile(
+    r"\(?[^\W\d_]+(?:-[^\W\d_]+)*\)?[,;:?]?\.?"
+    r"|\(?-?[0-9]+(?:[.,][0-9]+)?(?:e[-+]?[0-9]+)?(?:\)\.?)?[,;:]?"
+)
 COMPARED = ("<", "<=", ">", ">=", "=")
 UNSEEN = "\N{REPLACEMENT CHARACTER}"
 
@@ -43,7 +48,7 @@ def told(message: str) -> str:
     Parameters
     ----------
     message : str
-        One sentence or more, such as str(error).
+        One sentence or more, such as str(error), which is told in the language in use.
 
     Returns
     -------
@@ -52,7 +57,7 @@ def told(message: str) -> str:
     """
     parts: list[str] = []
     strange: list[str] = []
-    for word in printable(message).split():
+    for word in printable(translated(message)).split():
         compared = word in COMPARED and (parts or strange)  # at the beginning, > quotes what follows
         if not (compared or WORD.fullmatch(word)):
             strange.append(word)

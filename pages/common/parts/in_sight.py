@@ -7,18 +7,20 @@ from typing import TypeVar
 
 import streamlit as st
 
+from pages.common.words import words
+
 Part = TypeVar("Part")
 MOMENT = 0.5  # seconds; a bar that comes and goes at once only disturbs
 
 
-def in_sight(parts: Sequence[Part], words: str, most: float = math.inf) -> Iterator[Part]:
+def in_sight(parts: Sequence[Part], what: str, most: float = math.inf) -> Iterator[Part]:
     """The parts one after the other.
 
     Parameters
     ----------
     parts : sequence
         What there is to do.
-    words : str
+    what : str
         What is done, "Simulating changed plants".
     most : float
         Seconds of processor after which no further part is begun.
@@ -28,6 +30,6 @@ def in_sight(parts: Sequence[Part], words: str, most: float = math.inf) -> Itera
         if thread_time() - used > most:
             break
         if monotonic() - begun > MOMENT:
-            bar.progress(done / len(parts), f"{words}: {done} of {len(parts)}")
+            bar.progress(done / len(parts), words("{what}: {done} of {n}", what=what, done=done, n=len(parts)))
         yield part
     bar.empty()

@@ -14,11 +14,17 @@ from streamlit.delta_generator import DeltaGenerator
 from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import symbols
 from pages.common.parts.units import unit_of, with_unit
-from pages.common.session import state
+from pages.common.session import links, state
 from pages.common.session.fields import PLACES
-from pages.common.session.links import number_text
+from pages.common.words import numeral, words
 from simc_core.errors import SimcError
 from simc_core.numbers import read_number
+from simc_core.wording import Text
+
+
+def number_text(value: float | None) -> str:
+    """All digits of a number, with the decimal sign of the language."""
+    return numeral(links.number_text(value))
 
 
 @dataclass(slots=True)
@@ -74,7 +80,9 @@ def number_field(
     shown = with_unit(label, unit)
     place.text_input(shown, key=key, on_change=_read, args=(label, typed, check, take, key, optional), **options)
     if typed.why:
-        in_use = f"{number_text(value)} stays in use." if number_text(value) else "It stays empty."
+        in_use = (
+            words("{value} stays in use.", value=number_text(value)) if number_text(value) else words("It stays empty.")
+        )
         with (under or place).container(key=f"refused_{key}"):
             st.error(f"{typed.why}. {in_use}")
 
@@ -142,8 +150,11 @@ def _number(label: str, text: str, optional: bool) -> float | None:
 
 def _named(error: SimcError, name: str, label: str) -> SimcError:
     """The error with the field called as it is on the page."""
-    rest = str(error).removeprefix(name)
-    return error if rest == str(error) else SimcError(label + rest)
+    text = str(error)
+    if isinstance(text, Text) and text.values.get("name") == name:
+        return SimcError(text.put(name=label))
+    rest = text.removeprefix(name)
+    return error if rest == text else SimcError(label + rest)
 
 
 def _change(name: str, value: float | None) -> None:

@@ -8,9 +8,11 @@ import streamlit as st
 from pages.common.parts.figure_words import in_words
 from pages.common.parts.large import large
 from pages.common.parts.ready_figure import ReadyFigure
+from pages.common.parts.told_figure import told_figure
 from pages.common.parts.units import axes_named
 from pages.common.session import state
 from pages.common.session.lecture import lecturing
+from pages.common.words import words
 from simc_core.figures import Figure, config
 
 
@@ -28,7 +30,13 @@ def field(found: tuple[Panel, ...]) -> None:
     """Panels two by two; on a narrow screen the one that is chosen."""
     labels = [panel.label for panel in found]
     chosen = st.segmented_control(
-        "Panel", labels, default=labels[0], required=True, key="panel", label_visibility="collapsed", width="stretch"
+        words("Panel"),
+        labels,
+        default=labels[0],
+        required=True,
+        key="panel",
+        label_visibility="collapsed",
+        width="stretch",
     )
     st.html(_style([panel.key for panel in found], labels.index(chosen)))
     with st.container(key="panels"):
@@ -44,7 +52,7 @@ def show(figure: Figure, key: str, alt: str, picked: Callable[[str], None] | Non
     """
     name = f"figure_{key}"
     pick = {"on_select": lambda: picked(name), "selection_mode": "points"} if picked else {}
-    named = axes_named(figure, state.design_now().sheet)
+    named = told_figure(axes_named(figure, state.design_now().sheet))
     if lecturing():
         named = large(named)
     st.plotly_chart(ReadyFigure(named), key=name, config=config(key), alt=in_words(alt, named), **pick)

@@ -8,6 +8,7 @@ import streamlit as st
 from pages.common.parts.foreign_text import block, told
 from pages.common.parts.symbols import sentence
 from pages.common.session import state
+from pages.common.words import words
 from simc_core.errors import NotReducible, ParseError, RuleEnds, SimcError
 
 AROUND = 70  # characters of a long text that are shown on either side of the fault
@@ -21,17 +22,17 @@ def explain_refusal() -> Iterator[None]:
     except ParseError as error:
         unread(error)
     except NotReducible as error:
-        st.error(f"**The half rule does not cover this plant.** {sentence(str(error))}")
+        st.error(words("**The half rule does not cover this plant.** {error}", error=sentence(str(error))))
     except SimcError as error:
-        st.error(f"**This design is not possible.** {sentence(str(error))}")
+        st.error(words("**This design is not possible.** {error}", error=sentence(str(error))))
         if isinstance(error, RuleEnds) and error.change:
-            st.button("Do this", key="remedy_refusal", on_click=state.change, kwargs=error.change)
+            st.button(words("Do this"), key="remedy_refusal", on_click=state.change, kwargs=error.change)
 
 
 def unread(error: SimcError) -> None:
     """What was typed is no plant: why, and the text with a mark below the fault. It quotes what was typed."""
     shown = _place_of(error) if isinstance(error, ParseError) else ""
-    st.error(f"**This cannot be read.** {told(str(error))}{shown}")
+    st.error(words("**This cannot be read.** {error}{text}", error=told(str(error)), text=shown))
 
 
 def _place_of(error: ParseError) -> str:

@@ -5,6 +5,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.parts.sources import linked
 from pages.common.session import state
+from pages.common.words import words
 
 NAMES = {"2003": "2003: T1–T3", "1998": "1998"}
 
@@ -12,12 +13,14 @@ NAMES = {"2003": "2003: T1–T3", "1998": "1998"}
 def rules_choice(place: DeltaGenerator | None = None) -> None:
     """The choice between both sets."""
     (place or st).segmented_control(
-        "Rules for zeros",
+        words("Rules for zeros"),
         list(NAMES),
         format_func=NAMES.get,
         help=linked(
-            "2003: rules T1 to T3 [SK03 sect. 2.2]. 1998: the simpler, older form [SK98]: small zeros are subtracted "
-            "from the dead time, a large one is cancelled."
+            words(
+                "2003: rules T1 to T3 [SK03 sect. 2.2]. 1998: the simpler, older form [SK98]: small zeros are "
+                "subtracted from the delay, a large one is cancelled."
+            )
         ),
         **state.bound("rules"),
     )

@@ -5,6 +5,7 @@ import math
 from pages.common.parts.units import unit_of
 from pages.common.session.sheet import Sheet
 from simc_core.controllers.forms import Controller, IController
+from simc_core.wording import said
 
 STRUCTURE = {
     "series": r"K_c \frac{\tau_I s+1}{\tau_I s}(\tau_D s+1)",
@@ -17,7 +18,7 @@ UNITS = {
     "Kd": "OP time/PV",
     **dict.fromkeys(("tau_I", "tau_D", "tau_F"), "time"),
 }
-ACTIONS = {"reverse": "The output falls when PV rises.", "direct": "The output rises when PV rises."}
+ACTIONS = {"reverse": said("The output falls when PV rises."), "direct": said("The output rises when PV rises.")}
 
 
 def structure(controller: Controller, form: str) -> str:

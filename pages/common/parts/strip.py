@@ -7,6 +7,7 @@ from html import escape
 from pages.common.parts.quantities import QUANTITIES
 from pages.common.parts.units import unit_of
 from pages.common.session import state
+from pages.common.words import numeral, translated, words
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.bands import band_of
 
@@ -33,7 +34,7 @@ def peak_html(cell: Reading, Ms: float) -> str:
     band = band_of(Ms)
     return (
         f'<div class="first {band.tone}" title="{hover(cell)}"><small>{escape(cell.label)}</small><b>{cell.text}</b>'
-        f"<span>{band.words}</span></div>"
+        f"<span>{translated(band.words)}</span></div>"
     )
 
 
@@ -45,13 +46,15 @@ def hover(cell: Reading) -> str:
 def reading(name: str, value: float, label: str = "") -> Reading:
     """The cell of a quantity; label: where it is not the quantity's own."""
     quantity = QUANTITIES[name]
-    exact = f"{quantity.factor * value:.10g}"
+    exact = numeral(f"{quantity.factor * value:.10g}")
     if math.isinf(value):
-        exact = "infinite: no limit"
+        exact = words("infinite: no limit")
     if math.isnan(value):
-        exact = "no number: the loop keeps an offset (no integral action), or does not come to rest in reach"
+        exact = words("no number: the loop keeps an offset (no integral action), or does not come to rest in reach")
     unit = unit_of(quantity.unit, state.design_now().sheet)
-    return Reading(label or quantity.label, quantity.text(value), exact, quantity.meaning, unit)
+    return Reading(
+        label or translated(quantity.label), translated(quantity.text(value)), exact, translated(quantity.meaning), unit
+    )
 
 
 def pair(label: str, names: tuple[str, str], values: tuple[float, float]) -> Reading:

@@ -3,18 +3,20 @@
 from pages.common.parts.foreign_text import exact
 from pages.common.parts.symbols import SYMBOLS
 from pages.common.session.record import PARAMETERS, Origin
-from simc_core.notation import number
+from pages.common.words import number, words
+from simc_core.wording import said
 
-TITLES = {
-    "FOPDT": "First order",
-    "SOPDT": "Second order",
-    "IPDT": "Integrating",
-    "IPDT_lag": "Integrating with lag",
-    "inverse": "With a zero",
-    "oscillating": "Oscillating",
-    "DIPDT": "Double integrating",
-    "unstable": "Unstable",
+NAMES = {
+    "FOPDT": said("first order"),
+    "SOPDT": said("second order"),
+    "IPDT": said("integrating"),
+    "IPDT_lag": said("integrating with lag"),
+    "inverse": said("with a zero"),
+    "oscillating": said("oscillating"),
+    "DIPDT": said("double integrating"),
+    "unstable": said("unstable"),
 }
+TITLES = {structure: name[0].upper() + name[1:] for structure, name in NAMES.items()}
 SIGNS = {"k_prime": "k'", "k_double_prime": "k''"}
 
 
@@ -25,11 +27,22 @@ def sign_of(parameter: str) -> str:
 
 def told_of(origin: Origin) -> str:
     """Markdown: from what the plant was identified, how well it fits, and its standard errors."""
-    source = f" from {exact(origin.source)}" if origin.source else ""
     names = PARAMETERS[origin.structure]
     errors = ", ".join(f"{sign_of(name)} {number(error, 2)}" for name, error in zip(names, origin.errors, strict=True))
-    title = TITLES[origin.structure].lower()
+    told = {"structure": NAMES[origin.structure], "fit": 100 * origin.fit, "n": origin.samples, "errors": errors}
+    if not origin.source:
+        return words("Identified: {structure}, fit {fit:.1f} %, {n} samples. Standard errors: {errors}.", **told)
+    return words(
+        "Identified from {source}: {structure}, fit {fit:.1f} %, {n} samples. Standard errors: {errors}.",
+        source=exact(origin.source),
+        **told,
+    )
+
+
+def gains_apart(origin: Origin) -> str:
+    """A warning: moves of OP do not show the one gain that was fitted to all of them."""
+    low, high = (number(each, 3) for each in origin.gains)
     return (
-        f"Identified{source}: {title}, fit {100 * origin.fit:.1f} %, {origin.samples} samples. "
-        f"Standard errors: {errors}."
+        f"**Gains differ.** Moves of OP in the record show gains of {low} and {high}; this plant has one for all of "
+        "them. *Tune for the larger, or fit each operating point on the page From data and make a gain schedule.*"
     )

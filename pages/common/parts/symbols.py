@@ -2,21 +2,24 @@
 
 import re
 
+from pages.common.words import translated
+from simc_core.wording import said
+
 SYMBOLS = {
     "tau0b": "τ₀ᵦ",
     "tau0": "τ₀",
     "tau1": "τ₁",
     "tau2": "τ₂",
     "tau_c": "$\\tau_c$",
-    "tau_c_inner": "$\\tau_c$ (inner)",
-    "tau_c_outer": "$\\tau_c$ (outer)",
+    "tau_c_inner": said("{symbol} (inner)", symbol="$\\tau_c$"),
+    "tau_c_outer": said("{symbol} (outer)", symbol="$\\tau_c$"),
     "lambda": "λ",
-    "lambda_inner": "λ (inner)",
-    "lambda_outer": "λ (outer)",
-    "Ms_inner": "$M_s$ (inner)",
-    "Ms_outer": "$M_s$ (outer)",
-    "N_inner": "N (inner)",
-    "N_outer": "N (outer)",
+    "lambda_inner": said("{symbol} (inner)", symbol="λ"),
+    "lambda_outer": said("{symbol} (outer)", symbol="λ"),
+    "Ms_inner": said("{symbol} (inner)", symbol="$M_s$"),
+    "Ms_outer": said("{symbol} (outer)", symbol="$M_s$"),
+    "N_inner": said("{symbol} (inner)", symbol="N"),
+    "N_outer": said("{symbol} (outer)", symbol="N"),
     "primary": "$G_a$",
     "secondary": "$G_b$",
     "u_min": "$u_{min}$",
@@ -44,12 +47,13 @@ SYMBOLS = {
     "deg": "°",
 }
 WORD = re.compile(r"(?<![\w'])(?:" + "|".join(map(re.escape, sorted(SYMBOLS, key=len, reverse=True))) + r")(?![\w'])")
+SMALL_WORD = re.compile(r"[^\W\d_]{3}|no ")
 NEGATIVE = re.compile(r"(?<![\w.^{)-])-(?=[\d.])")  # the sign of a number
 
 
 def symbols(text: str) -> str:
-    """`text` for st.markdown, with Greek letters, indices and minus signs in place of their plain names."""
-    return NEGATIVE.sub("−", WORD.sub(lambda found: SYMBOLS[found[0]], text))
+    """`text` for st.markdown, in the language in use, with Greek letters, indices and minus signs for plain names."""
+    return NEGATIVE.sub("−", WORD.sub(lambda found: translated(SYMBOLS[found[0]]), translated(text)))
 
 
 def spoken(text: str) -> str:
@@ -60,4 +64,4 @@ def spoken(text: str) -> str:
 def sentence(text: str) -> str:
     """The same with a capital at its beginning, unless that is a symbol."""
     shown = symbols(text)
-    return shown[0].upper() + shown[1:] if re.match(r"[a-z]{3}", shown) else shown
+    return shown[0].upper() + shown[1:] if SMALL_WORD.match(shown) else shown

@@ -5,7 +5,8 @@ from html import escape
 
 from pages.common.parts.foreign_text import exact
 from pages.common.session.sheet import Sheet
-from simc_core.notation import number
+from pages.common.words import number
+from simc_core.wording import Text
 
 PLAIN = re.compile(r"(?:[^\W_]|[%°/·⁻²³ ()])*")  # nothing in it that Markdown or Streamlit would read as more than text
 
@@ -24,9 +25,7 @@ def labels(sheet: Sheet) -> dict[str, str]:
 
 def named(text: str, sheet: Sheet) -> str:
     """A text with its open places filled."""
-    for place, unit in labels(sheet).items():
-        text = text.replace(place, unit)
-    return text
+    return _filled(text, labels(sheet))
 
 
 def axes_named(figure: dict, sheet: Sheet) -> dict:
@@ -37,13 +36,23 @@ def axes_named(figure: dict, sheet: Sheet) -> dict:
             title = axis.get("title")
             text = title.get("text") if isinstance(title, dict) else title
             if text:
-                for place, unit in safe.items():
-                    text = text.replace(place, unit)
+                text = _filled(text, safe)
                 axis["title"] = {**title, "text": text} if isinstance(title, dict) else text
     for trace in figure["data"] if sheet.time_unit else ():
         if "[rad/time unit]" in trace.get("hovertemplate", ""):
-            trace["hovertemplate"] = trace["hovertemplate"].replace("[rad/time unit]", f"rad/{sheet.time_unit}")
+            trace["hovertemplate"] = _filled(trace["hovertemplate"], {"[rad/time unit]": f"rad/{sheet.time_unit}"})
     return figure
+
+
+def _filled(text: str, units: dict[str, str]) -> str:
+    """A text with its open places filled; one that can be translated still can."""
+    if isinstance(text, Text):
+        return text.put(
+            **{name: units[value] for name, value in text.values.items() if isinstance(value, str) and value in units}
+        )
+    for place, unit in units.items():
+        text = text.replace(place, unit)
+    return text
 
 
 def unit_of(what: str, sheet: Sheet) -> str:

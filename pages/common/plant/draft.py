@@ -14,6 +14,7 @@ from pages.common.parts.number_field import number_field
 from pages.common.parts.refusals import unread
 from pages.common.parts.symbols import symbols
 from pages.common.session import state
+from pages.common.words import words
 from simc_core import Plant, checks, read_back
 from simc_core.errors import SimcError
 
@@ -58,22 +59,22 @@ def text_field(name: str, way: str, draft: Draft, part: str, label: str, **optio
 
 def gain_field(name: str, way: str, draft: Draft, **places: DeltaGenerator) -> None:
     """The gain k. places: place and under of the number field."""
-    _number(name, way, draft, "k", "Gain k", checks.gain, places)
+    _number(name, way, draft, "k", words("Gain k"), checks.gain, places)
 
 
 def dead_time_field(name: str, way: str, draft: Draft, **places: DeltaGenerator) -> None:
     """The dead time theta. places: place and under of the number field."""
-    _number(name, way, draft, "theta", "Dead time θ", checks.optional_time, places)
+    _number(name, way, draft, "theta", words("Dead time θ"), checks.optional_time, places)
 
 
 def outcome(draft: Draft) -> None:
     """What was read, in words, so that a slip is seen at once; or what is wrong, and which plant stays in use."""
     understood = symbols(read_back(draft.plant))
     if draft.error is None:
-        st.caption(f"Read: {understood}.")
+        st.caption(words("Read: {understood}.", understood=understood))
         return
     unread(draft.error)
-    st.caption(f"Until this can be read, the previous plant is used: {understood}.")
+    st.caption(words("Until this can be read, the previous plant is used: {understood}.", understood=understood))
 
 
 def _number(name: str, way: str, draft: Draft, part: str, label: str, check: Callable, places: dict) -> None:

@@ -15,26 +15,36 @@ from pages.common.plant.number_form import show as numbers
 from pages.common.plant.parameters import PARAMETERS
 from pages.common.plant.step_test import FACTS, STEP_TEST
 from pages.common.session import state
+from pages.common.words import translated, words
 from simc_core import Plant, parse_plant
 from simc_core.notation import plain
 from simc_core.plants.examples import EXAMPLES
+from simc_core.wording import said
 
-WAYS = ("Text", "k, θ, τ", "Step test", "Factors", "Polynomials", "Examples")
+TEXT, NUMBERS, STEP, FACTORS = said("Text"), "k, θ, τ", said("Step test"), said("Factors")
+POLYNOMIALS, LITERATURE = said("Polynomials"), said("Examples")
+WAYS = (TEXT, NUMBERS, STEP, FACTORS, POLYNOMIALS, LITERATURE)
 
 
-def plant_entry(name: str = "plant", title: str = "plant") -> Plant:
+def plant_entry(name: str = "plant", title: str = "") -> Plant:
     """Widgets to enter the plant called `name` in design.py (plant, Ga or Gb). Returns the last good one."""
-    first = state.memory(f"{name}_first_way", lambda: "Step test" if state.value(FACTS[name]) else WAYS[0])
+    first = state.memory(f"{name}_first_way", lambda: STEP if state.value(FACTS[name]) else WAYS[0])
     way = st.segmented_control(
-        f"Enter the {title} as", WAYS, default=first, required=True, key=f"{name}_way", persist_state="session"
+        title or words("Enter the plant as"),
+        WAYS,
+        format_func=translated,
+        default=first,
+        required=True,
+        key=f"{name}_way",
+        persist_state="session",
     )
     show = {
-        "Text": _text,
-        "k, θ, τ": partial(numbers, PARAMETERS),
-        "Step test": partial(numbers, STEP_TEST),
-        "Factors": _factors,
-        "Polynomials": _polynomials,
-        "Examples": _examples,
+        TEXT: _text,
+        NUMBERS: partial(numbers, PARAMETERS),
+        STEP: partial(numbers, STEP_TEST),
+        FACTORS: _factors,
+        POLYNOMIALS: _polynomials,
+        LITERATURE: _examples,
     }
     show[way](name)
     return state.value(name)
@@ -47,10 +57,12 @@ def _text(name: str) -> None:
         "text",
         draft,
         "text",
-        "Transfer function",
-        help="As on paper: (1-2s)/((10s+1)(6s+1)(s+1)), exp(-3s)/((6s+1)(4s+1)), 2 e^{-0.5s}/(s(3s+1)^2), "
-        "1/(s^2+0.6s+1). A decimal comma is understood, and what MATLAB, Python or LaTeX print: tf([1 2],[1 3 2]), "
-        "a fraction over three lines, k=2, tau=10, theta=3.",
+        words("Transfer function"),
+        help=words(
+            "As on paper: (1-2s)/((10s+1)(6s+1)(s+1)), exp(-3s)/((6s+1)(4s+1)), 2 e^{-0.5s}/(s(3s+1)^2), "
+            "1/(s^2+0.6s+1). A decimal comma is understood, and what MATLAB, Python or LaTeX print: tf([1 "
+            "2],[1 3 2]), a fraction over three lines, k=2, tau=10, theta=3."
+        ),
     )
     outcome(draft)
 
@@ -61,9 +73,9 @@ def _polynomials(name: str) -> None:
         return {"num": num, "den": den, "theta": plant.theta}
 
     draft = draft_of(name, "polynomials", start, lambda fields: entries.plant_of_polynomials(**fields))
-    how = "Coefficients in descending powers of s, separated by blanks: 1 3 2 is s² + 3s + 2."
-    text_field(name, "polynomials", draft, "num", "Numerator", help=how)
-    text_field(name, "polynomials", draft, "den", "Denominator", help=how)
+    how = words("Coefficients in descending powers of s, separated by blanks: 1 3 2 is s² + 3s + 2.")
+    text_field(name, "polynomials", draft, "num", words("Numerator"), help=how)
+    text_field(name, "polynomials", draft, "den", words("Denominator"), help=how)
     dead_time_field(name, "polynomials", draft)
     outcome(draft)
 
@@ -92,12 +104,14 @@ def _factors(name: str) -> None:
         on_change=take,
         args=(name, draft),
         column_config={
-            "factor": st.column_config.SelectboxColumn("Factor", options=entries.FACTORS, width=170),
+            "factor": st.column_config.SelectboxColumn(
+                words("Factor"), options=entries.FACTORS, format_func=translated, width=170
+            ),
             "tau": st.column_config.TextColumn("τ", width=70),
             "zeta": st.column_config.TextColumn("ζ", width=60),
         },
     )
-    st.caption("τ < 0: unstable pole, or a zero in the right half plane. ζ for pairs only.")
+    st.caption(words("τ < 0: unstable pole, or a zero in the right half plane. ζ for pairs only."))
     outcome(draft)
 
 
@@ -107,10 +121,15 @@ def _examples(name: str) -> None:
     here = next((i for i, example in enumerate(EXAMPLES) if example.plant == state.value(name)), None)
     state.set_widget(key, None if here is None else titles[here])
     st.selectbox(
-        "From the literature", titles, key=key, placeholder="Choose one", on_change=_take_example, args=(name, key)
+        words("From the literature"),
+        titles,
+        key=key,
+        placeholder=words("Choose one"),
+        on_change=_take_example,
+        args=(name, key),
     )
     if here is not None:
-        st.caption(EXAMPLES[here].source)
+        st.caption(translated(EXAMPLES[here].source))
 
 
 def _take_example(name: str, key: str) -> None:

@@ -12,6 +12,7 @@ from pages.common.parts.symbols import symbols
 from pages.common.parts.units import unit_of
 from pages.common.session import state
 from pages.common.session.sheet import Sheet
+from pages.common.words import numeral, translated, words
 from simc_core import Plant, read_back
 from simc_core.errors import SimcError
 
@@ -53,8 +54,9 @@ class NumberForm:
 
     def in_words(self, error: SimcError) -> str:
         """What the core refuses, with the fields called as on the page."""
-        names = {name: field.label for name, field in self.fields.items()}
-        return re.sub("|".join(rf"\b{name}\b" for name in names), lambda found: names[found[0]], str(error))
+        names = {name: translated(field.label) for name, field in self.fields.items()}
+        found = re.compile("|".join(rf"\b{name}\b" for name in names))
+        return found.sub(lambda name: names[name[0]], translated(str(error)))
 
     def numbers(self, kind: str, given: dict[str, float]) -> dict[str, float]:
         """Those given, and what an empty field means."""
@@ -81,30 +83,41 @@ def show(form: NumberForm, name: str) -> None:
     key = f"{name}_{form.way}_kind"
     state.set_widget(key, typed.kind or next(iter(form.kinds)))
     kind = st.segmented_control(
-        form.label, list(form.kinds), key=key, required=True, on_change=_take_kind, args=(form, name, typed, key)
+        translated(form.label),
+        list(form.kinds),
+        format_func=translated,
+        key=key,
+        required=True,
+        on_change=_take_kind,
+        args=(form, name, typed, key),
     )
     for part in form.kinds[kind]:
         _field(form, name, kind, part, typed)
     if missing := form.missing(kind, typed.given):
-        st.caption(f"Still to fill in: {', '.join(missing)}. Until then the plant stays as it is.")
+        st.caption(
+            words(
+                "Still to fill in: {missing}. Until then the plant stays as it is.",
+                missing=", ".join(map(translated, missing)),
+            )
+        )
     elif typed.why:
-        st.error(f"{symbols(typed.why)}. The plant stays as it is.")
+        st.error(words("{why}. The plant stays as it is.", why=symbols(typed.why)))
     else:
-        st.caption(f"Read: {symbols(read_back(plant))}.")
+        st.caption(words("Read: {plant}.", plant=symbols(read_back(plant))))
 
 
 def _field(form: NumberForm, name: str, kind: str, part: str, typed: _Typed) -> None:
     about = form.fields[part]
     number_field(
-        about.label,
+        translated(about.label),
         typed.given.get(part),
-        lambda value: value is None or about.check(about.label, value),
+        lambda value: value is None or about.check(translated(about.label), value),
         partial(_take, form, name, kind, part, typed),
         f"{name}_{form.way}_{part}",
         unit=unit_of(about.unit, _sheet(name)),
         optional=True,
-        placeholder="needed" if about.empty is None else f"{about.empty:g}",
-        help=about.help,
+        placeholder=words("needed") if about.empty is None else numeral(f"{about.empty:g}"),
+        help=translated(about.help) if about.help else None,
     )
 
 

@@ -9,12 +9,13 @@ from pages.common.session.links import number_text
 from simc_core import Plant, checks
 from simc_core.errors import InvalidParameter
 from simc_core.numbers import read_number, read_numbers
+from simc_core.wording import renamed, said
 
-LAG = "lag 1/(τs + 1)"
-LEAD = "zero (τs + 1)"
-LAG_PAIR = "pair 1/(τ²s² + 2ζτs + 1)"
-LEAD_PAIR = "pair (τ²s² + 2ζτs + 1)"
-INTEGRATOR = "integrator 1/s"
+LAG = said("lag 1/(τs + 1)")
+LEAD = said("zero (τs + 1)")
+LAG_PAIR = said("pair 1/(τ²s² + 2ζτs + 1)")
+LEAD_PAIR = said("pair (τ²s² + 2ζτs + 1)")
+INTEGRATOR = said("integrator 1/s")
 FACTORS = (LAG, LEAD, INTEGRATOR, LAG_PAIR, LEAD_PAIR)
 
 
@@ -39,11 +40,11 @@ def plant_of_rows(k: float, theta: float, rows: Iterable[Mapping]) -> Plant:
         if factor is None and not row["tau"] and not row["zeta"]:
             continue
         if factor is None:
-            raise InvalidParameter(f"row {number}: choose what kind of factor this is, found none")
+            raise InvalidParameter(said("row {number}: choose what kind of factor this is, found none", number=number))
         if factor == INTEGRATOR:
             integrators += 1
         elif factor in (LAG, LEAD):
-            tau = checks.time_constant(f"row {number}: τ", _number(number, "τ", row["tau"]))
+            tau = checks.time_constant(said("row {number}: τ", number=number), _number(number, "τ", row["tau"]))
             (lags if factor == LAG else leads).append(tau)
         else:
             pair = (_number(number, "τ", row["tau"]), _number(number, "ζ", row["zeta"]))
@@ -69,7 +70,7 @@ def polynomials_of(plant: Plant) -> tuple[str, str]:
 
 def plant_of_polynomials(num: str, den: str, theta: float) -> Plant:
     """The plant of two texts of coefficients. Raises InvalidParameter."""
-    return Plant.from_polynomials(read_numbers("numerator", num), read_numbers("denominator", den), theta)
+    return Plant.from_polynomials(read_numbers(said("numerator"), num), read_numbers(said("denominator"), den), theta)
 
 
 def coefficients_text(values: Sequence[float]) -> str:
@@ -84,7 +85,7 @@ def _row(factor: str | None, tau: str | None = None, zeta: str | None = None) ->
 
 
 def _number(row: int, symbol: str, text: str | None) -> float:
-    return read_number(f"row {row}: {symbol}", text or "")
+    return read_number(said("row {row}: {symbol}", row=row, symbol=symbol), text or "")
 
 
 def _try_pair(row: int, pair: tuple[float, float]) -> None:
@@ -92,8 +93,8 @@ def _try_pair(row: int, pair: tuple[float, float]) -> None:
     try:
         Plant(1.0, lag_pairs=[pair])
     except InvalidParameter as error:
-        message = str(error).replace("lag_pairs[0] tau", "τ").replace("lag_pairs[0] zeta", "ζ")
-        raise InvalidParameter(f"row {row}: {message}") from None
+        message = renamed(str(error), {"lag_pairs[0] tau": "τ", "lag_pairs[0] zeta": "ζ"})
+        raise InvalidParameter(said("row {row}: {message}", row=row, message=message)) from None
 
 
 def _product(rows: np.ndarray) -> np.ndarray:

@@ -4,22 +4,35 @@ from pages.common.plant.number_form import Field, NumberForm
 from pages.common.session import state
 from simc_core import checks
 from simc_core.plants.step_facts import SettlingFacts, SlopeFacts, StepFacts
+from simc_core.wording import said
 
 FACTS = {"plant": "facts", "Ga": "Ga_facts", "Gb": "Gb_facts"}
-FROM_STEP, FROM_MOVEMENT, SLOPE = "63 % from step", "63 % from movement", "Integrating"
+FROM_STEP, FROM_MOVEMENT, SLOPE = said("63 % from step"), said("63 % from movement"), said("Integrating")
 FIELDS = {
-    "dOP": Field("Change of OP", checks.gain, unit="OP", help="With its sign: from 40 to 45 is 5."),
-    "dPV": Field("Change of PV, to its new rest", checks.gain, unit="PV", help="With its sign."),
+    "dOP": Field(said("Change of OP"), checks.gain, unit=said("OP"), help=said("With its sign: from 40 to 45 is 5.")),
+    "dPV": Field(said("Change of PV, to its new rest"), checks.gain, unit=said("PV"), help=said("With its sign.")),
     "rise": Field(
-        "Change of PV in the time below",
+        said("Change of PV in the time below"),
         checks.gain,
-        unit="PV",
-        help="Once PV moves, with its sign. If PV drifted before the step, less what the drift alone would have been.",
+        unit=said("PV"),
+        help=said(
+            "Once PV moves, with its sign. If PV drifted before the step, less what the drift alone would have been."
+        ),
     ),
-    "duration": Field("Time it took", checks.positive_time, 1.0, help="Empty: the change above is that of the slope."),
-    "theta": Field("Dead time θ", checks.optional_time, help="From the step of OP until PV begins to move."),
-    "t63": Field("Time to 63 % from the step", checks.optional_time, help="From the step of OP: the dead time counts."),
-    "tau1": Field("Time to 63 % from first movement", checks.optional_time, help="From the end of the dead time."),
+    "duration": Field(
+        said("Time it took"), checks.positive_time, 1.0, help=said("Empty: the change above is that of the slope.")
+    ),
+    "theta": Field(
+        said("Dead time θ"), checks.optional_time, help=said("From the step of OP until PV begins to move.")
+    ),
+    "t63": Field(
+        said("Time to 63 % from the step"),
+        checks.optional_time,
+        help=said("From the step of OP: the dead time counts."),
+    ),
+    "tau1": Field(
+        said("Time to 63 % from first movement"), checks.optional_time, help=said("From the end of the dead time.")
+    ),
 }
 KINDS = {
     FROM_STEP: ("dOP", "dPV", "theta", "t63"),
@@ -52,4 +65,4 @@ def _change(name: str, kind: str, values: dict[str, float]) -> dict:
     return {name: facts.plant, FACTS[name]: facts}
 
 
-STEP_TEST = NumberForm("step", "Response", FIELDS, KINDS, _begun, _change)
+STEP_TEST = NumberForm("step", said("Response"), FIELDS, KINDS, _begun, _change)

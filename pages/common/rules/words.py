@@ -13,8 +13,8 @@ NAMES = {"load": "IAE of the load", "setpoint": "IAE of the set point", "J": "J"
 
 MADE_FOR = {
     "optimal": "The smallest error that any controller of this kind has with this Mst; no rule lies below it.",
-    "simc": "One knob, $\\tau_c$, for all reduced models: $\\tau_c = \\theta$ is tight and robust. Integral time is "
-    "cut to $4(\\tau_c + \\theta)$, so that slow processes get rid of a load.",
+    "simc": "One knob, $\\tau_c$, for all reduced models: $\\tau_c = \\theta$ is tight and robust. For lags and "
+    "integrators $\\tau_I \\le 4(\\tau_c + \\theta)$, so that slow processes get rid of a load.",
     "improved_simc": "SIMC with $\\tau_1 + \\theta/3$ in place of $\\tau_1$: nearer to the optimum where dead time "
     "dominates.",
     "isimc": "SIMC with $\\tau_D = \\theta/3$: derivative action against the dead time itself, and $\\tau_c$ down to "

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from pages.common.session.design import Design
 from simc_core.errors import InvalidParameter
+from simc_core.wording import said
 
 MOST_LOOPS = 50
 
@@ -34,9 +35,15 @@ class Loops:
 
     def __post_init__(self):
         if not 1 <= len(self.entries) <= MOST_LOOPS:
-            raise InvalidParameter(f"a list holds 1 to {MOST_LOOPS} loops, found {len(self.entries)}: delete one first")
+            raise InvalidParameter(
+                said(
+                    "a list holds 1 to {most} loops, found {n}: delete one first", most=MOST_LOOPS, n=len(self.entries)
+                )
+            )
         if not 0 <= self.current < len(self.entries):
-            raise InvalidParameter(f"the loop in use must be one of {len(self.entries)}, found {self.current + 1}")
+            raise InvalidParameter(
+                said("the loop in use must be one of {most}, found {n}", most=len(self.entries), n=self.current + 1)
+            )
 
     @property
     def design(self) -> Design:
@@ -51,7 +58,7 @@ class Loops:
     @property
     def names(self) -> list[str]:
         """What the loops are called: their tags; without one, by number."""
-        return [entry.design.sheet.tag or f"Loop {i}" for i, entry in enumerate(self.entries, 1)]
+        return [entry.design.sheet.tag or said("Loop {i}", i=i) for i, entry in enumerate(self.entries, 1)]
 
     def with_design(self, design: Design) -> "Loops":
         """The design in use replaced."""

@@ -67,6 +67,7 @@ class Origin:
 
     plant: what came out.   structure: its key.   errors: standard errors of PARAMETERS of the structure, in order.
     fit: 1 - |residuals|/|PV - mean|.   samples: of PV.   source: name of the file or example.
+    gains: two that moves of OP show by themselves, where they are farther apart than their errors; else empty.
     """
 
     plant: Plant
@@ -75,6 +76,7 @@ class Origin:
     fit: float
     samples: int
     source: str = ""
+    gains: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -88,6 +90,10 @@ class Origin:
         )
         put(self, "fit", checks.real("fit", self.fit, -checks.LARGEST_GAIN, 1.0))
         put(self, "samples", checks.whole("samples", self.samples, 1, 1_000_000))
+        if len(self.gains) not in (0, 2):
+            raise InvalidParameter(f"gains must be two, or none, found {len(self.gains)}")
+        bound = checks.LARGEST_GAIN
+        put(self, "gains", tuple(checks.real("gain", each, -bound, bound) for each in self.gains))
         put(self, "source", "".join(c for c in self.source if c.isprintable())[:LONGEST_SOURCE])
 
     def rescaled(self, plant: Plant, time: Fraction) -> "Origin":
@@ -97,29 +103,34 @@ class Origin:
             scaled(each, time) if power == 1 else each / float(time) ** -power
             for each, power in zip(self.errors, powers, strict=True)
         )
-        return Origin(plant, self.structure, errors, self.fit, self.samples, self.source)
+        power = next(iter(powers))
+        gains = tuple(each / float(time) ** -power for each in self.gains)
+        return Origin(plant, self.structure, errors, self.fit, self.samples, self.source, gains)
 
 
 def origin_text(origin: Origin | None) -> str:
-    """structure~fit~samples~standard errors~source; empty for None."""
+    """structure~fit~samples~standard errors~source, the structure with !gains where they differ; empty for None."""
     if origin is None:
         return ""
     numbers = [repr(origin.fit), str(origin.samples), *(repr(each) for each in origin.errors)]
-    return "~".join([origin.structure, *numbers, origin.source])
+    structure = "!".join([origin.structure, *(repr(each) for each in origin.gains)])
+    return "~".join([structure, *numbers, origin.source])
 
 
 def origin_of(text: str, plant: Plant) -> Origin:
     """The origin of this plant. Raises SimcError."""
-    structure, *rest = text.split("~")
+    first, *rest = text.split("~")
+    structure, *own = first.split("!")
     if structure not in PARAMETERS:
         raise SimcError(f"origin begins with one of {', '.join(PARAMETERS)}, found {structure[:20]}")
     count = 2 + len(PARAMETERS[structure])
     try:
         fit, samples, *errors = (float(each) for each in rest[:count])
+        gains = tuple(float(each) for each in own)
     except ValueError:
         raise SimcError(f"origin of {structure} has {count} numbers after its name") from None
     return Origin(
-        plant, structure, tuple(errors), fit, samples if math.isfinite(samples) else -1, "~".join(rest[count:])
+        plant, structure, tuple(errors), fit, samples if math.isfinite(samples) else -1, "~".join(rest[count:]), gains
     )
 
 

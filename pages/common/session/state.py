@@ -10,6 +10,7 @@ are inside.
     state.change(tau_c=7.5)                               from a button's callback, or before st.rerun()
 """
 
+import threading
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from time import monotonic
@@ -27,11 +28,15 @@ from pages.common.session.fields import get, put
 from pages.common.session.links import Ignored
 from pages.common.session.loops import Loops
 from pages.common.session.tuning import Tuning
+from pages.common.words import language_is_told_by
+from pages.common.words.catalogues import ENGLISH, OFFERED
 from simc_core import Plant
+from simc_core.wording import joined, said
 
 # Seconds in which the browser has heard what a run put into a widget; nobody types the old value anew in it.
 ANSWERED = 1.0
 ON_ITS_WAY = 2.0  # seconds an address takes to reach the browser at most
+_heard = threading.local()  # session and its language: asked for hundreds of times a run
 SENT_AGAIN = 5.0  # seconds for which a value put into a widget may be overtaken; the first run of a server is slow
 
 
@@ -50,16 +55,45 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
         st.session_state["beside"] = beside
         st.session_state["place"], st.session_state["stands_for"] = {}, None
     if given and given != st.session_state.get("address") and not _late(given):
+        st.session_state["ignored"] = _take_language(given)
         if beside:
             st.session_state["place"] = {name: given.pop(name) for name in beside if name in given}
         if given:
             design, ignored = links.decode(given)
             _keep(loops().with_design(design))
-            st.session_state["ignored"] = ignored
+            st.session_state["ignored"] += ignored
             st.session_state.setdefault("opened", True)  # this visit began with a link
     st.session_state.setdefault("opened", False)
     _show_in_address()
     return design_now()
+
+
+def language() -> str:
+    """The language of this session."""
+    context = get_script_run_ctx(suppress_warning=True)
+    if context is None:
+        return ENGLISH
+    if getattr(_heard, "session", None) != context.session_id:
+        _heard.session, _heard.language = context.session_id, lasting("language", lambda: ENGLISH)
+    return _heard.language
+
+
+language_is_told_by(language)
+
+
+def _take_language(given: dict[str, str]) -> list[Ignored]:
+    """Take the language out of an address and into use; one that is not offered is ignored."""
+    asked = given.pop("lang", "")
+    if asked in OFFERED:
+        make_last("language", asked)
+        _heard.session = None
+    elif asked:
+        return [Ignored("lang", asked, said("the languages are {all}", all=joined(OFFERED)))]
+    return []
+
+
+def _language_in_address() -> dict[str, str]:
+    return {} if language() == ENGLISH else {"lang": language()}
 
 
 def place() -> dict[str, str]:
@@ -301,13 +335,13 @@ def address(**more: str) -> str:
     """The address of this page with the design in it.   more: what else it names, such as a view."""
     base = (st.context.url or "").split("?")[0]
     own = [] if _is_told_by_place() else [links.query(design_now())]
-    beside = urlencode(place() | more)
+    beside = urlencode(place() | _language_in_address() | more)
     return f"{base}?{'&'.join([*own, *([beside] if beside else [])])}"
 
 
 def parameters() -> dict[str, str]:
     """The query parameters of the design, for links to other pages."""
-    return links.encode(design_now())
+    return links.encode(design_now()) | _language_in_address()
 
 
 def offer_pages(pages: Mapping[str, Any]) -> None:
@@ -331,7 +365,7 @@ def _is_told_by_place() -> bool:
 
 
 def _show_in_address() -> None:
-    wanted = ({} if _is_told_by_place() else links.encode(design_now())) | place()
+    wanted = ({} if _is_told_by_place() else links.encode(design_now())) | place() | _language_in_address()
     if st.query_params.to_dict() != wanted:
         st.query_params.from_dict(wanted)
     shown = st.session_state.get("address")

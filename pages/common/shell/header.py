@@ -15,15 +15,17 @@ from pages.common.shell.loops_menu import loops_menu
 from pages.common.shell.paper import paper
 from pages.common.shell.sheet_form import sheet_form
 from pages.common.shell.styles import styles
+from pages.common.words import translated, typeset, words
 from simc_core.notation import latex
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 GROUPS = {
-    "Start": {"home": "Home"},
-    "Model": {"plant": "Plant", "from_data": "From data", "half_rule": "Half rule"},
-    "Tune": {"tuning": "Tuning", "rules": "Rules", "cascade": "Cascade"},
-    "Use": {"take_home": "Take home", "many": "Many loops"},
-    "Learn": {"lessons": "Lessons", "accuracy": "Accuracy", "sources": "Sources"},
+    said("Start"): {"home": said("Home")},
+    said("Model"): {"plant": said("Plant"), "from_data": said("From data"), "half_rule": said("Half rule")},
+    said("Tune"): {"tuning": said("Tuning"), "rules": said("Rules"), "cascade": said("Cascade")},
+    said("Use"): {"take_home": said("Take home"), "many": said("Many loops")},
+    said("Learn"): {"lessons": said("Lessons"), "accuracy": said("Accuracy"), "sources": said("Sources")},
 }
 TITLES = {name: title for group in GROUPS.values() for name, title in group.items()}
 EMBEDDED = (  # the line begins beside the button that opens the sidebar
@@ -33,6 +35,11 @@ EMBEDDED = (  # the line begins beside the button that opens the sidebar
 CHAIN = ("plant", "half_rule", "tuning", "cascade")
 NO_LOOP = ("lessons", "sources")  # pages that are about no loop of one's own
 BESIDE = {"lessons": ("lesson", "step"), "sources": ("source",)}  # parameters of a page beside those of the design
+
+
+def title_of(place: str) -> str:
+    """What a page is called, in the language in use."""
+    return translated(TITLES[place])
 
 
 def go(place: str) -> None:
@@ -47,7 +54,7 @@ def show(place: str) -> Design:
     """Page settings, the line on top, notices and the sidebar. `place` is a key of TITLES. Returns the design."""
     embedded = bool(st.context.is_embedded)  # in a page of a course, which has little room
     st.set_page_config(
-        page_title=f"{TITLES[place]} · SIMC",
+        page_title=f"{title_of(place)} · SIMC",
         page_icon="🎚️",
         layout="wide",
         initial_sidebar_state="collapsed" if embedded else "auto",
@@ -72,7 +79,7 @@ def _line(place: str, design: Design) -> None:
     with st.container(key="line", horizontal=True, vertical_alignment="center", gap="medium"):
         if place != "home":  # which has a title of its own
             named = "unseen" if place in CHAIN else ""  # the chain marks it for the eye
-            st.html(f'<h1 class="{named}">{TITLES[place]}</h1>', width="content")
+            st.html(f'<h1 class="{named}">{title_of(place)}</h1>', width="content")
         if tag := design.sheet.tag:
             st.markdown(exact(tag), width="content")
         if place == "cascade":
@@ -82,7 +89,7 @@ def _line(place: str, design: Design) -> None:
             _block("G", design.plant)
             theta = time_text(design.plant.theta, design.sheet)
             about = told_of(design.origin) if design.origin else None
-            st.caption(f"{design.plant.kind}, $\\theta$ = {theta}", width="content", help=about)
+            st.caption(f"{translated(design.plant.kind)}, $\\theta$ = {theta}", width="content", help=about)
         if place in CHAIN and not st.context.is_embedded:
             chain(place)
 
@@ -95,34 +102,39 @@ def chain(place: str, key: str = "chain") -> None:
                 st.markdown(":gray[›]", width="content")
             page = state.page(name)
             if name == place:
-                st.markdown(f"**:blue[{TITLES[name]}]**", width="content")
+                st.markdown(f"**:blue[{title_of(name)}]**", width="content")
             elif page is None:
-                st.markdown(TITLES[name], width="content")
+                st.markdown(title_of(name), width="content")
             else:
-                st.page_link(page, label=TITLES[name], query_params=state.parameters())
+                st.page_link(page, label=title_of(name), query_params=state.parameters())
 
 
 def _block(name: str, plant: Plant) -> None:
-    st.markdown(f"${name}(s) = {latex(plant)}$", width="content")
+    st.markdown(f"${name}(s) = {typeset(latex(plant))}$", width="content")
 
 
 def _notices() -> None:
     ignored = state.ignored()
     if not ignored:
         return
-    lines = "\n".join(f"- {exact(notice.given)} was ignored: {told(notice.why)}" for notice in ignored)
+    lines = "\n".join(
+        words("- {given} was ignored: {why}", given=exact(notice.given), why=told(notice.why)) for notice in ignored
+    )
     with st.container(horizontal=True, vertical_alignment="center"):
-        st.warning(f"These parts of the link were not understood; the rest was taken.\n\n{lines}", width="stretch")
-        st.button("Dismiss", on_click=state.dismiss_ignored)
+        st.warning(
+            words("These parts of the link were not understood; the rest was taken.\n\n{lines}", lines=lines),
+            width="stretch",
+        )
+        st.button(words("Dismiss"), on_click=state.dismiss_ignored)
 
 
 def _take_along(place: str) -> None:
-    st.caption("Share link: this page and design")
+    st.caption(words("Share link: this page and design"))
     copyable(state.address(), "address_text")
     offer()
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
-    st.download_button("Save project", content, "simc-project.json", "application/json", width="stretch")
-    upload = st.file_uploader("Open project", type="json", key="project_file", max_upload_size=1)
+    st.download_button(words("Save project"), content, "simc-project.json", "application/json", width="stretch")
+    upload = st.file_uploader(words("Open project"), type="json", key="project_file", max_upload_size=1)
     if upload is not None:
         _open(upload, place)
 
@@ -140,6 +152,6 @@ def _open(upload, place: str) -> None:
             st.rerun()
     why = state.lasting("refused", str)
     if why:
-        st.error(f"{exact(upload.name)} was not opened, nothing changed: {told(why)}")
+        st.error(words("{name} was not opened, nothing changed: {why}", name=exact(upload.name), why=told(why)))
     else:
-        st.caption(f"Opened: {exact(upload.name)}. Its loops are in the list above.")
+        st.caption(words("Opened: {name}. Its loops are in the list above.", name=exact(upload.name)))

@@ -10,6 +10,7 @@ import streamlit as st
 from pages.common.parts.qr import qr_svg
 from pages.common.session import state
 from pages.common.session.lecture import ask_lecture, asked_lecture, lecture_is, lecturing
+from pages.common.words import words
 
 HERE = Path(__file__).parent
 INSTRUMENTS = ("tuning", "cascade")
@@ -22,7 +23,13 @@ _keys = st.components.v2.component(
 
 def offer() -> None:
     """The button in the sidebar."""
-    st.button("Large type", key="lecture_begin", width="stretch", on_click=_begin, help="For a lecture; Esc leaves it.")
+    st.button(
+        words("Large type"),
+        key="lecture_begin",
+        width="stretch",
+        on_click=_begin,
+        help=words("For a lecture; Esc leaves it."),
+    )
 
 
 def lecture(place: str, instrument: bool | None = None) -> None:
@@ -42,14 +49,16 @@ def lecture(place: str, instrument: bool | None = None) -> None:
     panel = on.get("panel", "")
     st.html(f"<style>{(HERE / 'lecture.css').read_text(encoding='utf-8')}{_alone(panel)}</style>")
     with st.container(key="lecture_bar", horizontal=True, vertical_alignment="center", gap="small"):
-        st.button("Leave", key="lecture_leave", on_click=_leave)
+        st.button(words("Leave"), key="lecture_leave", on_click=_leave)
         with st.popover("QR"):
             link = state.address(
                 **{name: word for name, word in on.items() if name in ("view", "panel") and word}, lecture="1"
             )
             st.html(f'<div class="lecture_code">{qr_svg(link)}</div>')
             st.text(link)
-        st.caption("H hides and shows numbers and curves. Right and left arrow: step by step, where there are steps.")
+        st.caption(
+            words("H hides and shows numbers and curves. Right and left arrow: step by step, where there are steps.")
+        )
         _keys(key="lecture_keys", data={})
 
 

@@ -8,6 +8,7 @@ from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.kept import asked_browser, join_kept, to_keep
 from pages.common.session.loops import MOST_LOOPS
+from pages.common.words import translated, words
 
 _storage = st.components.v2.component(
     "simc_storage",
@@ -20,14 +21,24 @@ def loops_menu() -> None:
     """Choose a loop, begin another one, duplicate or delete the one in use."""
     loops = state.loops()
     state.set_widget("loop", loops.current)
-    st.selectbox("Loop", range(len(loops.entries)), format_func=loops.names.__getitem__, key="loop", on_change=_switch)
+    st.selectbox(
+        words("Loop"),
+        range(len(loops.entries)),
+        format_func=lambda i: translated(loops.names[i]),
+        key="loop",
+        on_change=_switch,
+    )
     full = len(loops.entries) >= MOST_LOOPS
     with st.container(horizontal=True, gap="xsmall"):
-        st.button("New", key="loop_new", disabled=full, help="Begin another loop.", on_click=_add)
+        st.button(words("New"), key="loop_new", disabled=full, help=words("Begin another loop."), on_click=_add)
         st.button(
-            "Duplicate", key="loop_duplicate", disabled=full, help="A copy of this loop to change.", on_click=_duplicate
+            words("Duplicate"),
+            key="loop_duplicate",
+            disabled=full,
+            help=words("A copy of this loop to change."),
+            on_click=_duplicate,
         )
-        st.button("Delete", key="loop_delete", help="Delete this loop from the list.", on_click=_delete)
+        st.button(words("Delete"), key="loop_delete", help=words("Delete this loop from the list."), on_click=_delete)
     keep()
 
 

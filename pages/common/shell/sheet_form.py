@@ -6,14 +6,22 @@ from pages.common.parts.number_field import design_number
 from pages.common.session import state
 from pages.common.session.sheet import LONGEST, TIME_UNITS
 from pages.common.session.time_unit import in_time_unit
+from pages.common.words import translated, words
 from simc_core.errors import SimcError
+from simc_core.wording import said
 
-SIGNALS = (("PV", "Measurement PV"), ("OP", "Output OP"))
+SIGNALS = (("PV", said("Measurement PV")), ("OP", said("Output OP")))
+
+ENDS = {
+    "low": said("{signal} low", signal="PV"),
+    "high": said("{signal} high", signal="PV"),
+    "now": said("{signal} now", signal="PV"),
+}
 
 
 def sheet_form() -> None:
     """The sheet, folded; what was typed in it is in the design."""
-    sheet = st.expander("Loop sheet", key="sheet", on_change="rerun")
+    sheet = st.expander(words("Loop sheet"), key="sheet", on_change="rerun")
     if sheet.open:
         with sheet:
             _fields()
@@ -21,27 +29,27 @@ def sheet_form() -> None:
 
 def _fields() -> None:
     """Fields of the sheet; another time unit converts the design and says so."""
-    _text("tag", "Tag")
+    _text("tag", words("Tag"))
     state.set_widget("sheet_unit", state.value("unit"))
     st.selectbox(
-        "Time unit",
+        words("Time unit"),
         ["", *TIME_UNITS],
-        format_func=lambda unit: unit or "not named",
+        format_func=lambda unit: unit or words("not named"),
         key="sheet_unit",
         on_change=_take_unit,
-        help="Naming it the first time changes no number; another unit later converts all times.",
+        help=words("Naming it the first time changes no number; another unit later converts all times."),
     )
-    if said := state.memory("unit_said", str):
-        st.caption(said)
-    for signal, words in SIGNALS:
+    if converted := state.memory("unit_said", str):
+        st.caption(converted)
+    for signal, label in SIGNALS:
         name, unit = st.columns(2, gap="small")
         with name:
-            _text(signal, words)
+            _text(signal, translated(label))
         with unit:
-            _text(f"{signal}_unit", f"Unit of {signal}")
-        for place, end in zip(st.columns(3, gap="small"), ("low", "high", "now"), strict=True):
-            design_number(f"{signal}_{end}", f"{signal} {end}", optional=True, place=place)
-    _text("note", "Note")
+            _text(f"{signal}_unit", words("Unit of {signal}", signal=signal))
+        for place, (end, name) in zip(st.columns(3, gap="small"), ENDS.items(), strict=True):
+            design_number(f"{signal}_{end}", translated(name.put(signal=signal)), optional=True, place=place)
+    _text("note", words("Note"))
 
 
 def _text(name: str, label: str) -> None:
@@ -56,10 +64,18 @@ def _take_unit() -> None:
         state.replace_design(in_time_unit(state.design_now(), new))
     except SimcError as error:
         state.remember(
-            "unit_said", f"Not converted, the unit stays {old}: in {new} a number would be out of bounds ({error})."
+            "unit_said",
+            words(
+                "Not converted, the unit stays {old}: in {new} a number would be out of bounds ({error}).",
+                old=old,
+                new=new,
+                error=error,
+            ),
         )
         return
     converted = old and new and old != new
     state.remember(
-        "unit_said", f"All times were converted from {old} to {new}: the loop is the same." * bool(converted)
+        "unit_said",
+        words("All times were converted from {old} to {new}: the loop is the same.", old=old, new=new)
+        * bool(converted),
     )

@@ -2,6 +2,7 @@
 
 import streamlit as st
 
+from pages.common.parts.structures import gains_apart
 from pages.common.parts.symbols import spoken, symbols
 from pages.common.parts.units import with_plain_unit
 from pages.common.session import state
@@ -17,6 +18,9 @@ PLACES = {"error": st.error, "warning": st.warning, "note": st.caption}
 def show(study: Study) -> None:
     """Advice on the design, the gravest first; what it proposes is a button."""
     with st.container(key="guards", gap="xsmall"):
+        origin = state.design_now().origin
+        if origin is not None and origin.gains:
+            st.warning(gains_apart(origin))
         for item in advice(study.tuned) if study.tuned else advice_on_settings(study.loop, study.margins):
             proposal(item)
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import t as student
 
 from simc_core.identification.estimator.fit import Fit, continued, fitted, polished
 from simc_core.identification.estimator.held_input import Array
@@ -46,6 +47,11 @@ class Estimate:
     spread: Array
     gain_error: float
     freedom: float
+
+    @property
+    def half_width(self) -> float:
+        """Of a 95 % interval, in standard errors: Student's t for the samples that count."""
+        return float(student.ppf(0.975, self.freedom))
 
 
 def estimate(

@@ -3,10 +3,10 @@
 import numpy as np
 
 from simc_core.errors import NotIdentifiable
+from simc_core.identification.estimator.records import OFTEN
 from simc_core.identification.judgement.estimate import Estimate
 from simc_core.identification.trend import Trend
 
-OFTEN = 0.3  # share of samples with another OP from which OP moves all the time
 EXPLAINED = 0.9  # share of the moves of OP that PV explains, from which a controller made them
 EXPLAINED_AT_REST = 0.5  # the same where the set point is known to be constant
 WEAK = 3.0  # standard errors below which a gain is none

@@ -5,7 +5,7 @@ import numpy as np
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.estimator.records import Record
 from simc_core.identification.judgement.estimate import Estimate
-from simc_core.identification.judgement.gain_per_move import MOST, GainOfMove, differ, extremes
+from simc_core.identification.judgement.gain_per_move import MOST, GainOfMove, disagreement
 
 SURE = 8.0  # standard errors of a gain from which a step was large enough
 ELSEWHERE = 5.0  # of the largest sum of residuals; correlated noise alone stays below 4.6
@@ -24,8 +24,8 @@ def verdicts(estimate: Estimate, half_width: float, moves: tuple[GainOfMove, ...
     fit : float
         1 - |residuals|/|PV - mean|.
     """
-    differ = disagree(moves)
-    found = [*differ, *_poor(fit), *([] if differ else _size(estimate)), *_disturbed(estimate)]
+    differing = disagree(moves)
+    found = [*differing, *_poor(fit), *([] if differing else _size(estimate)), *_disturbed(estimate)]
     return (*found, *_settled(estimate), *_dead_time(estimate, half_width), *_lags(estimate), *_along(estimate))
 
 
@@ -64,18 +64,35 @@ def _disturbed(estimate: Estimate) -> list[str]:
 
 def disagree(moves: tuple[GainOfMove, ...]) -> list[str]:
     """What to think of moves whose gains differ."""
-    if not differ(moves):
+    found = disagreement(moves)
+    if found is None:
         return []
-    low, high = extremes(moves)
-    if abs(low.gain) < 0.2 * abs(high.gain):
+    several = len({move.record for move in moves}) > 1
+    low, high = (f"{move.gain:.3g}{_where(move, several)}" for move in (found.low, found.high))
+    if found.kind == "stuck":
         return [
-            f"PV hardly answers the move of OP from {low.before:g} to {low.after:g} (gain {low.gain:.3g} instead of "
-            f"{high.gain:.3g}): the valve sticks, or the actuator did not follow. Do not tune on this trend."
+            f"PV hardly answers the move of OP{_where(found.low, several)} (gain {found.low.gain:.3g} instead of "
+            f"{high}): the valve sticks, or the actuator did not follow. Do not tune on this trend."
+        ]
+    if found.kind == "sign":
+        return [
+            f"The gain changes its sign, {low} and {high}: no controller with integral action serves both. Do not "
+            "tune on this model, fit one of them alone."
+        ]
+    if found.low.record != found.high.record:
+        return [
+            f"The gain differs from record to record, {low} and {high}: the process is not linear, and one model is "
+            "right for neither. Fit each operating point by itself and make a gain schedule, or tune for the larger "
+            "gain."
         ]
     return [
-        f"The gain differs from move to move, {low.gain:.3g} from {low.before:g} to {low.after:g} and {high.gain:.3g} "
-        f"from {high.before:g} to {high.after:g}: the process is not linear, or the valve sticks. Tune for the larger."
+        f"The gain differs from move to move, {low} and {high}: the process is not linear, or the valve sticks. Tune "
+        "for the larger gain, or fit each operating point by itself."
     ]
+
+
+def _where(move: GainOfMove, several: bool) -> str:
+    return f" from {move.before:g} to {move.after:g}{f' in record {move.record + 1}' if several else ''}"
 
 
 def _settled(estimate: Estimate) -> list[str]:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 HOUR = 3600.0
 CLOCK_CHANGE = (0.9 * HOUR, 1.1 * HOUR)  # how far a clock is put back
 RESTART = 0.1  # of the span: a jump back to before it begins another record
+BACKWARDS, ANEW = "Time went backwards", "Time begins anew"  # how sentences of it begin that ask to be checked
 FAR = 10.0  # times the next steps: a jump of the first sample that is rubbish
 
 
@@ -52,13 +53,17 @@ def _sorted(rows: NDArray[np.intp], t: NDArray[np.float64], back: NDArray[np.int
     longest = max(parts, key=len)
     if restarts and len(longest) < t.size and min(map(len, parts)) > 2:
         at = int(rows[longest[0]]) + 1
-        said.append(f"Time begins anew: {len(parts)} records. The longest is taken, from row {at} of the numbers on.")
+        said.append(f"{ANEW}: {len(parts)} records. The longest is taken, from row {at} of the numbers on.")
         rows, t = rows[longest], t[longest]
         back = np.flatnonzero(np.diff(t) < 0)
     if back.size:
         order = np.argsort(t, kind="stable")
         rows, t = rows[order], t[order]
-        said.append(f"Time went backwards {'once' if back.size == 1 else f'{back.size} times'}: sorted.")
+        times = "once" if back.size == 1 else f"{back.size} times"
+        said.append(
+            f"{BACKWARDS} {times}: sorted. Where a clock was put back this mixes what was measured before and after: "
+            "then take the file apart there."
+        )
     return Order(rows, t, said)
 
 

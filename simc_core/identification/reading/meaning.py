@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from simc_core.controllers.forms import Controller
 from simc_core.errors import DataError, SimcError
 from simc_core.identification.experiments.known_controller import COMPUTED, op_of_controller
-from simc_core.identification.reading.cleaning import HOUR, first_is_rubbish, in_order, without_repeats
+from simc_core.identification.reading.cleaning import ANEW, BACKWARDS, HOUR, first_is_rubbish, in_order, without_repeats
 from simc_core.identification.reading.columns import QUALITY, Column
 from simc_core.identification.reading.historian import by_tags, is_long
 from simc_core.identification.reading.inputs import moved_too
@@ -41,6 +41,8 @@ class Reading:
         What is not clear, with the answer that is assumed meanwhile.
     refusal : str
         Why there is no trend, "" where there is one.
+    computable : bool
+        OP is missing, but follows from PV, SP and the controller where that is told.
     """
 
     trend: Trend | None
@@ -49,6 +51,7 @@ class Reading:
     understood: tuple[str, ...]
     questions: tuple[Question, ...] = ()
     refusal: str = ""
+    computable: bool = False
 
 
 def understand(
@@ -84,16 +87,21 @@ def understand(
     names["time"] = table.columns[times[0]].name if times and found is table.columns else ""
     choices = tuple(found[i].name for i in candidates)
     computed = controller is not None and roles.at["OP"] is None and roles.at["SP"] is not None
-    refusal = _refusal(axis, roles.at | ({"OP": roles.at["SP"]} if computed else {}))
+    refusal = _refusal(found, axis, roles.at | ({"OP": roles.at["SP"]} if computed else {}))
     trend = None
     if not refusal:
         trend, mended, refusal = _trend(found, axis, roles.at | ({"OP": roles.at["SP"]} if computed else {}))
         understood += mended
+        asked = [each for each in mended if each.startswith((BACKWARDS, ANEW))]
+        questions += tuple(Question("order", each, (), "sorted") for each in asked)
         if computed and controller is not None and trend is not None:
             trend = op_of_controller(trend, controller)
             understood.append(COMPUTED)
+        if trend is not None and roles.mislabelled:
+            trend = replace(trend, units={name: unit for name, unit in trend.units.items() if name == "t"})
         trend = trend and replace(trend, notes=tuple(understood))
-    return Reading(trend, names, choices, tuple(understood), questions, refusal)
+    computable = roles.at["OP"] is None and _moves(found, roles.at["SP"])
+    return Reading(trend, names, choices, tuple(understood), questions, refusal, computable)
 
 
 def _place(columns: Sequence[Column], role: str, column: str | int | None) -> int | None:
@@ -109,14 +117,27 @@ def _place(columns: Sequence[Column], role: str, column: str | int | None) -> in
     raise DataError(f"{role} must be one of the columns {', '.join(names)[:200]}, found {str(column)[:40]}")
 
 
-def _refusal(axis: TimeAxis, at: Mapping[str, int | None]) -> str:
+def _moves(columns: Sequence[Column], at: int | None) -> bool:
+    if at is None:
+        return False
+    good = columns[at].values[columns[at].finite]
+    return good.size > 0 and float(np.ptp(good)) > 0
+
+
+def _refusal(columns: Sequence[Column], axis: TimeAxis, at: Mapping[str, int | None]) -> str:
     if not axis.columns:
         return "no column is time: tell how long it is from one row to the next, period=..."
     if at["OP"] is None:
+        more = ""
+        if at["SP"] is not None:
+            more = (
+                "; or, since the set point moved, tell the controller, controller=..."
+                if _moves(columns, at["SP"])
+                else ". The set point never moves, so that OP cannot be computed from the controller either"
+            )
         return (
             "no column is the controller output (OP). A model tells how PV follows OP: log both, and SP, "
-            "and repeat the test"
-            + ("; or, if the set point moved, tell the controller, controller=..." if at["SP"] is not None else "")
+            f"and repeat the test{more}"
         )
     return ""
 

@@ -32,11 +32,15 @@ ERRORS = re.compile(r"(^|[\W_])(err|error|dev|deviation|p|i|d|kp|ki|kd)($|[\W_])
 
 @dataclass(slots=True)
 class Roles:
-    """at: index of the column of each role, None for none.   said, questions: of what was understood."""
+    """at: index of the column of each role, None for none.   said, questions: of what was understood.
+
+    mislabelled: the names, and with them the units, stand above the wrong columns.
+    """
 
     at: dict[str, int | None]
     said: list[str] = field(default_factory=list)
     questions: list[Question] = field(default_factory=list)
+    mislabelled: bool = False
 
 
 def roles_of(columns: Sequence[Column], candidates: Sequence[int], told: Mapping[str, int | None]) -> Roles:
@@ -168,7 +172,9 @@ def _mislabelled(found: Roles, columns: Sequence[Column], moves: Mapping[int, fl
     )
     found.questions[:] = [each for each in found.questions if each.name not in ROLES]
     found.questions.append(Question("PV", text, tuple(columns[i].name for i in (pv, op, held)), columns[pv].name))
-    found.said.append("Names of SP, OP and PV do not fit the numbers: taken by the numbers.")
+    found.mislabelled = True
+    units = " Units are left open." if any(columns[i].unit for i in (SP, OP, PV)) else ""
+    found.said.append(f"Names of SP, OP and PV do not fit the numbers: taken by the numbers.{units}")
 
 
 def _rivals(found: Roles, columns: Sequence[Column], free: Sequence[int], told: Mapping[str, int | None]) -> None:

@@ -11,6 +11,7 @@ from simc_core.numbers.several import program_list
 from simc_core.plants.parse_values import ONE, S, Value, constant, inverse, is_zero, number_of, polynomial, times
 from simc_core.plants.pasted.grammar import DEEPEST, Reader
 from simc_core.plants.pasted.tokens import HINTS, Token, bare
+from simc_core.wording import said
 
 DELAYS = ("inputdelay", "outputdelay", "iodelay")
 SAMPLING = ("dt", "ts")
@@ -38,11 +39,13 @@ def read_call(reader: Reader, token: Token) -> Value:
 def _value(function: str, written: str, reader: Reader, token: Token, parts: list[tuple[str, int]]) -> Value:
     given, theta = _options(written, parts)
     if function == "delay" and len(given) == 1:
-        return Value((ONE,), (), _number("the dead time", given[0]), token.at)
+        return Value((ONE,), (), _number(said("the dead time"), given[0]), token.at)
     if function == "syslin" and given and given[0].strip("'\"") == "c":
         return _syslin(reader, token, parts)
     if function == "lti" and len(given) == 4:
-        raise InvalidParameter("state space is not read: write numerator and denominator, as in tf([1 2], [1 3 2])")
+        raise InvalidParameter(
+            said("state space is not read: write numerator and denominator, as in tf([1 2], [1 3 2])")
+        )
     if (function in ("zpk", "zerospolesgain") and len(given) in (3, 4)) or (function == "lti" and len(given) == 3):
         _check_continuous(written, given[3:])
         zeros, poles = _roots("zeros", given[0]), _roots("poles", given[1])
@@ -51,14 +54,14 @@ def _value(function: str, written: str, reader: Reader, token: Token, parts: lis
         if len(given) == 3 and given[2] in ("s", "p"):  # sympy
             given.pop()
         elif len(given) == 3 and written.lower() == "transferfunction":
-            theta += _number("the dead time", given.pop())
+            theta += _number(said("the dead time"), given.pop())
         _check_continuous(written, given[2:])
         numerator, denominator = (
             _polynomial(reader, token, name, part)
-            for name, part in zip(("numerator", "denominator"), given, strict=False)
+            for name, part in zip((said("numerator"), said("denominator")), given, strict=False)
         )
         if is_zero(denominator):
-            raise InvalidParameter("denominator must not be zero, found 0")
+            raise InvalidParameter(said("denominator must not be zero, found 0"))
         value = times(numerator, inverse(denominator))
         theta += value.theta
     elif function in ("tf", "zpk") and len(given) == 1 and given[0].strip("'\"") in ("s", "p"):
@@ -67,8 +70,11 @@ def _value(function: str, written: str, reader: Reader, token: Token, parts: lis
         raise InvalidParameter(HINTS["z"])
     else:
         raise InvalidParameter(
-            f"{written}(...) is not understood with these arguments: write numerator and denominator, "
-            "as in tf([1 2], [1 3 2])"
+            said(
+                "{written}(...) is not understood with these arguments: write numerator and denominator, as in "
+                "tf([1 2], [1 3 2])",
+                written=written,
+            )
         )
     return Value(value.num, value.den, theta, token.at)
 
@@ -112,22 +118,38 @@ def _options(written: str, parts: list[tuple[str, int]]) -> tuple[list[str], Fra
         elif key in SAMPLING:
             _check_continuous(written, [value])
         elif key == "variable" and value.strip("'\"") not in ("s", "p"):
-            raise InvalidParameter(f"{written}(...) in {value} is a sampled model: {HINTS['z']}")
+            raise InvalidParameter(
+                said(
+                    "{written}(...) in {value} is a sampled model: {hints}",
+                    written=written,
+                    value=value,
+                    hints=HINTS["z"],
+                )
+            )
         elif key not in OF_NO_MEANING:
-            raise InvalidParameter(f"'{key}' in {written}(...) is not known: leave it out")
+            raise InvalidParameter(
+                said("'{key}' in {written}(...) is not known: leave it out", key=key, written=written)
+            )
     return given, theta
 
 
 def _check_continuous(written: str, more: list[str]) -> None:
     if more and more[0].strip()[:1] in ("[", "{"):
         raise InvalidParameter(
-            f"{written}(...) has too many arguments: write decimal points, and commas between arguments alone, "
-            "as in tf(0.5, [10 1])"
+            said(
+                "{written}(...) has too many arguments: write decimal points, and commas between arguments "
+                "alone, as in tf(0.5, [10 1])",
+                written=written,
+            )
         )
     if more and more[0].strip().lower() not in CONTINUOUS:
         raise InvalidParameter(
-            f"the number {more[0].strip()[:20]} at the end of {written}(...) is a sampling time, and sampled models "
-            "are not read: if it is the dead time, write 'InputDelay' before it"
+            said(
+                "the number {more} at the end of {written}(...) is a sampling time, and sampled models are not "
+                "read: if it is the dead time, write 'InputDelay' before it",
+                more=more[0].strip()[:20],
+                written=written,
+            )
         )
 
 
@@ -135,14 +157,14 @@ def _syslin(reader: Reader, token: Token, parts: list[tuple[str, int]]) -> Value
     """syslin('c', num/den) and syslin('c', num, den)."""
     values = [_inside(reader, token.at + at, token.at + at + len(part)) for part, at in parts[1:3]]
     if not values:
-        raise InvalidParameter("syslin needs a transfer function, as in syslin('c', 2/(5*%s+1))")
+        raise InvalidParameter(said("syslin needs a transfer function, as in syslin('c', 2/(5*%s+1))"))
     return values[0] if len(values) == 1 else reader.divided(values[0], values[1], token.at)
 
 
 def _inside(reader: Reader, start: int, stop: int) -> Value:
     """The value of an argument that is itself a transfer function."""
     if reader.depth >= DEEPEST:
-        raise reader.fault(f"brackets must not be nested more than {DEEPEST} deep", start)
+        raise reader.fault(said("brackets must not be nested more than {deepest} deep", deepest=DEEPEST), start)
     inner = Reader(reader.text, reader.plain, start, stop, reader.names, reader.call)
     inner.depth = reader.depth + 1
     value = inner.plant()
@@ -205,5 +227,5 @@ def _roots(name: str, text: str) -> Value:
         else:
             waiting.append(root)
     if waiting:
-        raise InvalidParameter(f"complex {name} must come in conjugate pairs, as in [-1+2i, -1-2i]")
+        raise InvalidParameter(said("complex {name} must come in conjugate pairs, as in [-1+2i, -1-2i]", name=name))
     return value

@@ -44,13 +44,14 @@ from simc_core.plants.pasted.shapes import (
 )
 from simc_core.plants.pasted.sums_of_delays import advice
 from simc_core.plants.pasted.tokens import Token, bare, fault, superscript_delay, tokens
+from simc_core.wording import said
 
 DEEPEST = 50  # nested brackets
 HIGHEST_POWER = 40
 CLOSING = {"(": ")", "[": "]", "{": "}"}
 EXPONENTIALS = ("exp", "e", "delay")
 ATOMS = ("number", "s", "name", "frac", "sqrt", "pi", "call", "list", *EXPONENTIALS)
-NO_EXPONENT = "the exponent must be a multiple of s, as in e^{-3s} or exp(-3 s)"
+NO_EXPONENT = said("the exponent must be a multiple of s, as in e^{-3s} or exp(-3 s)")
 
 
 class Reader:
@@ -87,7 +88,7 @@ class Reader:
     def plant(self) -> Value:
         value = self.fraction()
         if self.token.kind != "end":
-            raise self.fault(f"a transfer function must end here, found {_named(self.token)}")
+            raise self.fault(said("a transfer function must end here, found {token}", token=_named(self.token)))
         return value
 
     @property
@@ -131,17 +132,19 @@ class Reader:
         minus = -1 if sign.text == "-" else 1
         if a.theta != b.theta:
             raise self.fault(
-                "terms with different dead times cannot be added to one plant with one dead time: "
+                said("terms with different dead times cannot be added to one plant with one dead time: ")
                 + advice(a, b, minus),
                 sign.at,
             )
         if degree(a) + degree(b) > 4 * checks.MOST_FACTORS:
-            raise self.fault(f"the degree of a polynomial must be <= {checks.MOST_FACTORS}", sign.at)
+            raise self.fault(
+                said("the degree of a polynomial must be <= {most_factors}", most_factors=checks.MOST_FACTORS), sign.at
+            )
         return plus(a, b, minus)
 
     def divided(self, value: Value, divisor: Value, at: int) -> Value:
         if is_zero(divisor):
-            raise self.fault("division by zero", at)
+            raise self.fault(said("division by zero"), at)
         return self.checked(times(value, inverse(divisor)), at)
 
     def product(self) -> Value:
@@ -167,21 +170,26 @@ class Reader:
             if before.kind == "number":
                 both = quoted(f"{before.text} {token.text}")
                 raise self.fault(
-                    f"two numbers stand side by side, '{both}': write them as one without a blank, "
-                    "or put +, - or * between them",
+                    said(
+                        "two numbers stand side by side, '{both}': write them as one without a blank, or put +, - or * "
+                        "between them",
+                        both=both,
+                    ),
                     token.at,
                 )
             # 10s 1 is 10s+1 that lost its plus, as in a link where + was not written %2B
             raise self.fault(
-                f"a sign is missing before this number: write +, - or * before {quoted(token.text)}, "
-                "or ^ if it is a power"
+                said(
+                    "a sign is missing before this number: write +, - or * before {text}, or ^ if it is a power",
+                    text=quoted(token.text),
+                )
             )
         if before.kind == "list" and token.kind not in EXPONENTIALS:
-            raise self.fault("after a list of coefficients write / or *")
+            raise self.fault(said("after a list of coefficients write / or *"))
         if token.kind == "list":
-            raise self.fault("a list of coefficients stands alone: write tf([2], [10 1]), or / or * before it")
+            raise self.fault(said("a list of coefficients stands alone: write tf([2], [10 1]), or / or * before it"))
         if slashed and token.kind not in EXPONENTIALS:
-            raise self.fault("the denominator is unclear: write 1/((s+1)(2s+1)) or (1/(s+1))*(2s+1)")
+            raise self.fault(said("the denominator is unclear: write 1/((s+1)(2s+1)) or (1/(s+1))*(2s+1)"))
 
     def is_power_of_ten(self) -> bool:
         """Whether the present number is 10^3 or 1e3 after another number."""
@@ -198,13 +206,20 @@ class Reader:
         while self.token.kind == "power":
             exponent = self.whole_exponent()
             if abs(exponent) > HIGHEST_POWER:
-                raise self.fault(f"a power must be between -{HIGHEST_POWER} and {HIGHEST_POWER}, found {exponent}", at)
+                raise self.fault(
+                    said(
+                        "a power must be between -{highest_power} and {highest_power}, found {exponent}",
+                        highest_power=HIGHEST_POWER,
+                        exponent=exponent,
+                    ),
+                    at,
+                )
             if exponent < 0 and is_zero(value):
-                raise self.fault("division by zero", at)
+                raise self.fault(said("division by zero"), at)
             base = inverse(value) if exponent < 0 else value
             n = abs(exponent)
             if n * max(len(base.num), len(base.den)) > MOST_PARTS:
-                raise self.fault(f"a product must have at most {MOST_PARTS} factors", at)
+                raise self.fault(said("a product must have at most {most_parts} factors", most_parts=MOST_PARTS), at)
             value = self.checked(Value(base.num * n or (ONE,), base.den * n, base.theta * n, base.at), at)
         return value
 
@@ -217,7 +232,7 @@ class Reader:
         sign = -1 if self.take("-") else 1
         token = self.token
         if token.kind != "number" or not token.text.isascii() or not token.text.isdigit():
-            raise self.fault(f"a power must be a whole number, found {_named(token)}")
+            raise self.fault(said("a power must be a whole number, found {token}", token=_named(token)))
         self.next += 1
         if opened:
             self.close(opened)
@@ -253,8 +268,10 @@ class Reader:
             case "sign" if token.text == "-" and self.token.text != "-":  # 2*-s, e^{-s}*-1
                 return times(MINUS_ONE, self.power())
             case "sign" if token.text in CLOSING.values():
-                raise self.fault(f"'{token.text}' closes a bracket that was not opened", token.at)
-        raise self.fault(f"a number, s, exp or a bracket was expected here; found {_named(token)}", token.at)
+                raise self.fault(said("'{text}' closes a bracket that was not opened", text=token.text), token.at)
+        raise self.fault(
+            said("a number, s, exp or a bracket was expected here; found {token}", token=_named(token)), token.at
+        )
 
     def names_value(self, token: Token) -> Value:
         name = bare(token.text)
@@ -265,17 +282,23 @@ class Reader:
         argument = self.atom() if self.token.kind == "number" else self.group()
         value = number_of(argument)
         if value is None or value < 0:
-            raise self.fault("a square root must be of a number >= 0", token.at)
+            raise self.fault(said("a square root must be of a number >= 0"), token.at)
         return constant(Fraction(math.sqrt(value)))
 
     def group(self) -> Value:
         opened = self.take(*CLOSING)
         if not opened:
-            braces = " as in \\frac{2}{10s+1}" if self.last.kind == "frac" else ""
-            raise self.fault(f"an opening bracket is expected here{braces}, found {_named(self.token)}")
+            braces = said(" as in \\frac{2}{10s+1}") if self.last.kind == "frac" else ""
+            raise self.fault(
+                said(
+                    "an opening bracket is expected here{braces}, found {token}",
+                    braces=braces,
+                    token=_named(self.token),
+                )
+            )
         self.depth += 1
         if self.depth > DEEPEST:
-            raise self.fault(f"brackets must not be nested more than {DEEPEST} deep", opened.at)
+            raise self.fault(said("brackets must not be nested more than {deepest} deep", deepest=DEEPEST), opened.at)
         value = self.fraction()
         self.close(opened)
         self.depth -= 1
@@ -284,8 +307,13 @@ class Reader:
     def close(self, opened: Token) -> None:
         if not self.take(CLOSING[opened.text]):
             raise self.fault(
-                f"'{opened.text}' of position {opened.at + 1} must be closed by '{CLOSING[opened.text]}', "
-                f"found {_named(self.token)}"
+                said(
+                    "'{text}' of position {at} must be closed by '{closing}', found {token}",
+                    text=opened.text,
+                    at=opened.at + 1,
+                    closing=CLOSING[opened.text],
+                    token=_named(self.token),
+                )
             )
 
     def exponential(self, token: Token) -> Value:
@@ -319,4 +347,4 @@ class Reader:
 
 
 def _named(token: Token) -> str:
-    return "the end of the text" if token.kind == "end" else f"'{quoted(token.text)}'"
+    return said("the end of the text") if token.kind == "end" else f"'{quoted(token.text)}'"

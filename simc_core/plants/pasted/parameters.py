@@ -7,6 +7,7 @@ from simc_core.numbers.refusal import quoted
 from simc_core.plants.parse_values import ONE, Polynomial, Value
 from simc_core.plants.pasted.statements import Statement
 from simc_core.plants.pasted.tokens import fault
+from simc_core.wording import said
 
 GAINS = ("k", "km", "kp", "k0", "ks", "gain", "processgain")
 DELAYS = (
@@ -18,7 +19,9 @@ LAGS = (
     "timeconstant", "lag", "lag1", "lag2", "lag3",
 )  # fmt: skip
 DAMPING = ("zeta", "zeta0", "xi")
-ENOUGH = "write gain, lag and dead time as in k=2, tau=10, theta=3, or a transfer function as in 2 e^{-3s}/(10s+1)"
+ENOUGH = said(
+    "write gain, lag and dead time as in k=2, tau=10, theta=3, or a transfer function as in 2 e^{-3s}/(10s+1)"
+)
 
 
 def from_parameters(text: str, given: dict[str, tuple[Fraction, Statement]]) -> Value:
@@ -33,23 +36,30 @@ def from_parameters(text: str, given: dict[str, tuple[Fraction, Statement]]) -> 
             None,
         )
         if kind is None:
-            raise _fault(text, f"'{quoted(part.name)}' is not known in a list of parameters: {ENOUGH}", part)
+            raise _fault(
+                text,
+                said("'{name}' is not known in a list of parameters: {enough}", name=quoted(part.name), enough=ENOUGH),
+                part,
+            )
         found[kind].append(number)
     first = next(iter(given.values()))[1]
     letters = {name.lower() for name in given}
     if "tau" in letters and letters & {"t", "tm", "tp", "t1"}:
         raise _fault(
-            text, "tau can be read in two ways beside T: write theta for the dead time, or tau1 and tau2 for two lags",
+            text,
+            said("tau can be read in two ways beside T: write theta for the dead time, or tau1 and tau2 for two lags"),
             given[next(name for name in given if name.lower() == "tau")][1],
-        )  # fmt: skip
+        )
     if len(found["gain"]) != 1 or not found["lag"] or len(found["delay"]) > 1 or len(found["damping"]) > 1:
-        raise _fault(text, f"'{quoted(first.name)} = ...' alone is not a plant: {ENOUGH}", first)
+        raise _fault(
+            text, said("'{name} = ...' alone is not a plant: {enough}", name=quoted(first.name), enough=ENOUGH), first
+        )
     if 0 in found["lag"]:
-        raise _fault(text, "a lag must not be zero: leave it out", first)
+        raise _fault(text, said("a lag must not be zero: leave it out"), first)
     one = Fraction(1)
     if found["damping"]:
         if len(found["lag"]) != 1:
-            raise _fault(text, "zeta belongs to one tau: write k=2, tau=5, zeta=0.3, theta=1", first)
+            raise _fault(text, said("zeta belongs to one tau: write k=2, tau=5, zeta=0.3, theta=1"), first)
         tau = found["lag"][0]
         lags: tuple[Polynomial, ...] = ((one, 2 * found["damping"][0] * tau, tau * tau),)
     else:

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 from simc_core.errors import ParseError
 from simc_core.plants.pasted.tokens import Token, fault
+from simc_core.wording import said
 
 SIGNS = ("+", "-", "*", "/", "^", "**")
 
@@ -56,8 +57,13 @@ def check_lost_powers(text: str, row: list[Token]) -> None:
         in_sum = row[after + 1].text in signs or (i > 1 and row[i - 1].text in signs and row[i - 2].text != "(")
         if torn or not in_sum:
             raise fault(
-                f"'{token.text}' before s can be read in two ways: did you mean {found[1]} e^(-{time}s)? "
-                "If it is a coefficient, write it without e",
+                said(
+                    "'{text}' before s can be read in two ways: did you mean {found} e^(-{time}s)? If it is a "
+                    "coefficient, write it without e",
+                    text=token.text,
+                    found=found[1],
+                    time=time,
+                ),
                 text,
                 token.at,
             )
@@ -71,15 +77,22 @@ def check_lost_tens(text: str, row: list[Token]) -> None:
         tight = ten.text == "10" and after.text == "-" and after.at == ten.at + 2 and last.at == ten.at + 3
         if tight and last.kind == "number":
             raise fault(
-                f"'10-{last.text}' after a multiplication can be read in two ways: write 10^-{last.text} if it is a "
-                f"power of ten, or 10 - {last.text} with blanks if it is a difference",
+                said(
+                    "'10-{text}' after a multiplication can be read in two ways: write 10^-{text} if it is a power "
+                    "of ten, or 10 - {text} with blanks if it is a difference",
+                    text=last.text,
+                ),
                 text,
                 ten.at,
             )
         if text[times.at] not in "*." and ten.text[2:].isdigit():
             raise fault(
-                f"'{ten.text}' after a multiplication can be read in two ways: write 10^{ten.text[2:]} if it is a "
-                "power of ten, or * before it if it is not",
+                said(
+                    "'{text}' after a multiplication can be read in two ways: write 10^{text_2} if it is a power of "
+                    "ten, or * before it if it is not",
+                    text=ten.text,
+                    text_2=ten.text[2:],
+                ),
                 text,
                 ten.at,
             )
@@ -97,8 +110,10 @@ def check_raised(text: str, plain: str, row: list[Token]) -> None:
         ):
             at = after.at if after.kind == "s" else token.at
             raise fault(
-                "the wide gap at this s can be a power on a line of its own: write s^2 for s squared, and 2 s with one "
-                "blank",
+                said(
+                    "the wide gap at this s can be a power on a line of its own: write s^2 for s squared, and 2 s "
+                    "with one blank"
+                ),
                 text,
                 at,
             )
@@ -110,8 +125,12 @@ def check_numbered(text: str, plain: str, row: list[Token]) -> None:
     point = first.kind == "number" and first.text[-1] == "." and row[1].kind not in ("s", "end")
     if point and _blank(plain, row[1]) and row[1].text not in SIGNS:
         raise ParseError(
-            f"'{first.text}' can be the number of a list: leave it out, or write {first.text}0 if it is a factor "
-            f"(position {first.at + 1})",
+            said(
+                "'{text}' can be the number of a list: leave it out, or write {text}0 if it is a factor "
+                "(position {at})",
+                text=first.text,
+                at=first.at + 1,
+            ),
             text,
             first.at,
         )
@@ -121,8 +140,12 @@ def check_numbered(text: str, plain: str, row: list[Token]) -> None:
     if before or (behind and row[-5].kind not in ("exp", "e", "frac", "sqrt")):
         number = row[1] if before else last[1]
         raise ParseError(
-            f"'({number.text})' can be the number of an equation: leave it out, or write * beside it if it is a factor "
-            f"(position {number.at})",
+            said(
+                "'({text})' can be the number of an equation: leave it out, or write * beside it if it is a "
+                "factor (position {at})",
+                text=number.text,
+                at=number.at,
+            ),
             text,
             number.at - 1,
         )
@@ -144,7 +167,15 @@ def check_one_variable(text: str, row: list[Token]) -> None:
     if len(variables) > 1:
         first, second, *_ = variables
         at = variables[second].at
-        raise fault(f"there are two variables, {first} and {second}: write one, or give {second} a value", text, at)
+        raise fault(
+            said(
+                "there are two variables, {first} and {second}: write one, or give {second} a value",
+                first=first,
+                second=second,
+            ),
+            text,
+            at,
+        )
 
 
 def _in_exponent(row: list[Token], at: int) -> bool:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from simc_core.errors import ParseError
 from simc_core.numbers.signs import LOWERED, SUPERSCRIPTS
+from simc_core.wording import said
 
 
 class Token(NamedTuple):
@@ -18,7 +19,7 @@ class Token(NamedTuple):
 
 def fault(message: str, text: str, at: int) -> ParseError:
     """The refusal of what stands at this place of the text."""
-    return ParseError(f"{message} (position {at + 1})", text, at)
+    return ParseError(said("{message} (position {at})", message=message, at=at + 1), text, at)
 
 
 RAISED = SUPERSCRIPTS[:10]
@@ -52,49 +53,55 @@ VARIABLES = ("s", "S", "p", "%s")
 CALLS = ("tf", "transferfunction", "transferfunctioncontinuous", "zpk", "zerospolesgain", "syslin", "lti", "delay")
 LONGEST_ROW = 40  # letters of names written without a sign between
 HINTS = {
-    "ss": "state space is not read: write the transfer function, or its coefficients as tf([1 2], [1 3 2])",
-    "statespace": "state space is not read: write the transfer function, or its coefficients as tf([1 2], [1 3 2])",
-    "pade": "the dead time is exact here: write exp(-2s) in place of its Padé approximation",
-    "z": "a sampled model in z is not read: write the transfer function in s",
-    "jw": "write the transfer function in s, not its frequency response",
-    "jω": "write the transfer function in s, not its frequency response",
-    "log": "work it out and write a number",
-    "feedback": "work out the closed loop first, or enter the plant alone",
-    "poly": "write its factors, as in (s+1)(s+2)",
-    **dict.fromkeys(
-        ("q", "filt", "dlti", "drss", "c2d"), "a sampled model is not read: write the transfer function in s"
+    "ss": said("state space is not read: write the transfer function, or its coefficients as tf([1 2], [1 3 2])"),
+    "statespace": said(
+        "state space is not read: write the transfer function, or its coefficients as tf([1 2], [1 3 2])"
     ),
-    "series": "write the two with * between them",
-    "parallel": "write the two with + between them",
-    "minreal": "leave it out",
-    **dict.fromkeys(("u", "y", "r"), "only the transfer function between input and output is read: leave u and y out"),
-    "x10": "write 1.5e-3 or 1.5*10^-3 for a power of ten",
-    **dict.fromkeys(("d", "D"), "write 1.5e-3 for a power of ten"),
+    "pade": said("the dead time is exact here: write exp(-2s) in place of its Padé approximation"),
+    "z": said("a sampled model in z is not read: write the transfer function in s"),
+    "jw": said("write the transfer function in s, not its frequency response"),
+    "jω": said("write the transfer function in s, not its frequency response"),
+    "log": said("work it out and write a number"),
+    "feedback": said("work out the closed loop first, or enter the plant alone"),
+    "poly": said("write its factors, as in (s+1)(s+2)"),
     **dict.fromkeys(
-        ("step", "bode", "nyquist", "margin", "plot", "pidtune", "print"), "leave it out, only the plant is read"
+        ("q", "filt", "dlti", "drss", "c2d"), said("a sampled model is not read: write the transfer function in s")
     ),
-    **dict.fromkeys(("min", "sec", "h", "hr", "ms", "rad"), "leave units out, and write all times in the same one"),
+    "series": said("write the two with * between them"),
+    "parallel": said("write the two with + between them"),
+    "minreal": said("leave it out"),
+    **dict.fromkeys(
+        ("u", "y", "r"), said("only the transfer function between input and output is read: leave u and y out")
+    ),
+    "x10": said("write 1.5e-3 or 1.5*10^-3 for a power of ten"),
+    **dict.fromkeys(("d", "D"), said("write 1.5e-3 for a power of ten")),
+    **dict.fromkeys(
+        ("step", "bode", "nyquist", "margin", "plot", "pidtune", "print"), said("leave it out, only the plant is read")
+    ),
+    **dict.fromkeys(
+        ("min", "sec", "h", "hr", "ms", "rad"), said("leave units out, and write all times in the same one")
+    ),
     **dict.fromkeys(
         ("fopdt", "sopdt", "gain", "lag", "delay", "theta", "tau", "dead", "time", "first", "second", "with"),
-        "write parameters with =, as in k=2, tau=10, theta=3",
+        said("write parameters with =, as in k=2, tau=10, theta=3"),
     ),
 }
 SIGN_HINTS = {
-    "%": "write 0.5, or 50, for 50 %",
-    "°": "leave the unit out",
-    ",": "a decimal comma stands between digits; a dead time behind a comma is written theta = 3",
-    "=": "enter one transfer function, or give every name before = a value",
-    **dict.fromkeys("\"'", "leave the quotes out"),
-    "@": "leave @(s) out",
-    "±": "enter one value",
-    ":": "write / for a division",
-    **dict.fromkeys("→≈", "write ="),
-    "½": "write 0.5 or 1/2",
-    "¼": "write 0.25 or 1/4",
-    "¾": "write 0.75 or 3/4",
+    "%": said("write 0.5, or 50, for 50 %"),
+    "°": said("leave the unit out"),
+    ",": said("a decimal comma stands between digits; a dead time behind a comma is written theta = 3"),
+    "=": said("enter one transfer function, or give every name before = a value"),
+    **dict.fromkeys("\"'", said("leave the quotes out")),
+    "@": said("leave @(s) out"),
+    "±": said("enter one value"),
+    ":": said("write / for a division"),
+    **dict.fromkeys("→≈", said("write =")),
+    "½": said("write 0.5 or 1/2"),
+    "¼": said("write 0.25 or 1/4"),
+    "¾": said("write 0.75 or 3/4"),
 }
-IN_S = "write the transfer function in s, with numbers for everything else"
-A_NAME = f"{IN_S}, or give it a value behind: K/(T s+1), K=2, T=5"
+IN_S = said("write the transfer function in s, with numbers for everything else")
+A_NAME = said("{in_s}, or give it a value behind: K/(T s+1), K=2, T=5", in_s=IN_S)
 
 
 def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str]) -> Iterator[Token]:
@@ -111,7 +118,7 @@ def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str])
         found = TOKEN.match(plain, at, stop)
         if not found:
             hint = f": {SIGN_HINTS[text[at]]}" if text[at] in SIGN_HINTS else ""
-            raise fault(f"'{text[at]}' is not part of a transfer function{hint}", text, at)
+            raise fault(said("'{text}' is not part of a transfer function{hint}", text=text[at], hint=hint), text, at)
         kind, written = found.lastgroup, found[0]
         assert kind is not None  # every alternative of TOKEN has a name
         if kind == "list" and not _is_list(written):
@@ -123,7 +130,7 @@ def tokens(text: str, plain: str, start: int, stop: int, names: Collection[str])
             continue
         yield Token(kind, written.lstrip(".") if kind in ("power", "sign") else written, at)
         at += len(written)
-    yield Token("end", "the end", stop)
+    yield Token("end", said("the end"), stop)
 
 
 def _is_list(written: str) -> bool:
@@ -195,20 +202,20 @@ def _closing(text: str, plain: str, at: int) -> int:
         depth += (plain[i] in "([{") - (plain[i] in ")]}")
         if depth == 0:
             return i + 1
-    raise ParseError(f"'(' of position {at + 1} must be closed by ')', found the end of the text", text, at)
+    raise ParseError(said("'(' of position {at} must be closed by ')', found the end of the text", at=at + 1), text, at)
 
 
 def _lost_exponent(text: str, plain: str, at: int, end: int) -> ParseError:
     lost = re.match(r"\s*-\s*([\d.,]*)\s*\*?\s*[sp]", plain[end:])
-    hint = f": did you mean e^(-{lost[1]}s)?" if lost else ": write e^{-3s} or exp(-3s)"
-    return fault(f"e must have an exponent{hint}", text, at)
+    hint = said(": did you mean e^(-{lost}s)?", lost=lost[1]) if lost else said(": write e^{-3s} or exp(-3s)")
+    return fault(said("e must have an exponent{hint}", hint=hint), text, at)
 
 
 def _unknown(text: str, known: str, written: str, at: int) -> ParseError:
     shown = written if len(written) <= 30 else written[:27] + "..."
     key = known.rpartition(".")[2]
     hint = HINTS.get(key, HINTS.get(key.lower(), A_NAME if len(bare(written)) <= 2 else IN_S))
-    return fault(f"'{shown}' is not known: {hint}", text, at)
+    return fault(said("'{shown}' is not known: {hint}", shown=shown, hint=hint), text, at)
 
 
 def superscript_delay(written: str) -> int:

@@ -13,6 +13,7 @@ from pages.common.session.cascade import Cascade
 from pages.common.studies.cascade import study
 
 KEY = "live_cascade"
+SLOW = "this cascade takes too long to compute for them to follow it."
 
 
 def cascade_instrument(cascade: Cascade) -> None:
@@ -33,10 +34,16 @@ def cascade_instrument(cascade: Cascade) -> None:
             key=f"{KEY}_exact",
             data=cascade_table.exact(subject, grid, present, answers, state.design_now().sheet),
         )
+        slow = []
         for loop in LOOPS:
             name = cascade_table.table_name(subject, grid, loop)
             table = held.message(loop, name, lambda loop=loop: cascade_table.table(subject, grid, loop, _pause))
-            components.message(key=f"{KEY}_{loop}", data=table)
+            if table:
+                components.message(key=f"{KEY}_{loop}", data=table)
+            else:
+                slow.append(loop)
+        if slow:
+            st.caption(f"Curves come when the slider of the {' or the '.join(slow)} loop is released: {SLOW}")
 
 
 def _pause() -> None:

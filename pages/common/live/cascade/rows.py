@@ -9,6 +9,7 @@ from bisect import bisect
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from time import thread_time
 
 import numpy as np
 
@@ -23,12 +24,35 @@ from simc_core.simulation.simulate_nested import unit_steps
 from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
 
 PER_DECADE = 3
-MOST_ROWS = 80  # of one section
+MOST_ROWS = 30  # of one section; a usual one needs 20
+MOST_WORK = 1.0  # s of processor; a usual table takes a quarter of it
+MOST_ROOTS = 60  # lags and zeros of both blocks: the first look alone would take longer
 LOOKED_AT = 25  # speeds at which a change of branch or of the verdict is looked for
 NEAR = 1e-5  # relative: to which its place is known
 FIRST = 1e-4  # of the horizon, for the sums over it
 SAMPLES = 300
 PARAMETERS = ("Kp", "Ki", "Kd", "tau_F")
+
+
+class TooSlow(Exception):
+    """A table would take more work than a slider is worth: its curves come when it is released."""
+
+
+@dataclass(slots=True)
+class Work:
+    """The work of one table: `within` is called before each speed. other: called then too, a newer wish may end all."""
+
+    other: Callable[[], None]
+    begun: float
+    speeds: int = 0
+
+    def within(self) -> None:
+        """Raises TooSlow where MOST_WORK is spent, or will be by the first look at all speeds."""
+        self.other()
+        spent = thread_time() - self.begun
+        if self.speeds and spent > MOST_WORK / 5 and spent * max(1.0, LOOKED_AT / self.speeds) > MOST_WORK:
+            raise TooSlow
+        self.speeds += 1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,7 +89,13 @@ def at(held: Cascade, loop: str, speed: float) -> CascadeDesign:
 def sections(
     held: Cascade, loop: str, low: float, high: float, grid: Grid, pause: Callable[[], None]
 ) -> tuple[list[Section], list[tuple[float, float]], bool]:
-    """Rows; ranges that are not sound; whether there the inner loop is always stable. pause: called now and then."""
+    """Rows; ranges that are not sound; whether there the inner loop is always stable. pause: called now and then.
+
+    Raises TooSlow.
+    """
+    if sum(len(each) for block in (held.primary, held.secondary) for each in (block.lags, block.leads)) > MOST_ROOTS:
+        raise TooSlow
+    pause = Work(pause, thread_time()).within
     seen: list[bool] = []
 
     def state(speed: float):

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pages.common.live.cascade.rows import PARAMETERS, Grid, Section, course, sections
+from pages.common.live.cascade.rows import PARAMETERS, Grid, Section, TooSlow, course, sections
 from pages.common.live.kit.held import kept_end
 from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
@@ -154,8 +154,14 @@ def exact(subject: Subject, grid: Grid, study: CascadeStudy, answers: int, sheet
 
 
 def table(subject: Subject, grid: Grid, loop: str, pause: Callable[[], None]) -> bytes:
-    """The table for the slider of `loop`. pause: called between rows, where a newer wish may end the work."""
-    found, unsound, inner_stable = sections(subject.held, loop, *bounds(subject.rest)[loop], grid, pause)
+    """The table for the slider of `loop`, b"" where it would take too long.
+
+    pause: called between rows, where a newer wish may end the work.
+    """
+    try:
+        found, unsound, inner_stable = sections(subject.held, loop, *bounds(subject.rest)[loop], grid, pause)
+    except TooSlow:
+        return b""
     rows = [row for each in found for row in each.rows]
     x, breaks = _joined(found)
     header = {

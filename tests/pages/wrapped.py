@@ -1,0 +1,146 @@
+"""A language made by the program, ⟦in brackets⟧, and all that a page shows: what is outside is in no catalogue."""
+
+import json
+import re
+from collections.abc import Iterator
+from html import unescape
+
+import pandas as pd
+from streamlit.testing.v1 import AppTest
+
+from pages.common.session import state
+from pages.common.words import catalogues
+from simc_core.wording import Text
+
+BRACKETS = "xx"
+NOT_SEEN = {  # fields of Streamlit's messages that hold names, addresses and code
+    *("id", "form_id", "element_id", "key", "user_key", "url", "page_script_hash", "query_params"),
+    *("url_pathname", "icon", "color", "component_name", "html_content", "css_content", "js_content"),
+    *("column_order", "columns", "avatar", "group_id", "fragment_id", "delta_path", "type", "value"),
+    *("default", "config", "text_alignment", "page", "bytes", "mixed", "deferred_file_id"),
+    *("string_value", "default_state_key", "language", "theme", "styler", "arrow_data", "set_value"),
+    *("query_string", "string_values", "raw_values", "content_hash", "source_code", "isolate_styles"),
+    *("mime_type"),
+}
+FOREIGN = {"text", "mine", "known"}
+FORMULAS = {"2.2 exp(-20s)/(180s+1)"}  # as code, which every language writes with points
+IN_FIGURES = {"text", "title", "name", "hovertemplate", "customdata"}
+MARKUP = re.compile(
+    r"(?P<code>(?P<fence>`+).*?(?<!`)(?P=fence)(?!`))|\$\$.*?\$\$|\$[^$]*\$|%\{[^{}]*\}|<style>.*?</style>|</?[a-zA-Z][^<>]*>|:material/\w+:|:\w+\["
+    r"|\]\(\S+ \"[^\"]*\"\)|\]\([^()]*\)",
+    re.DOTALL,
+)
+INNER = re.compile("⟦[^⟦⟧]*⟧")
+WORD = re.compile(r"[^\W\d_]{3,}")
+# No words of English: symbols, abbreviations of the field, names of formats.
+SYMBOLS = {"PID", "SIMC", "IAE", "exp", "cos", "sin", "min", "max", "arg", "lim", "rad", "QR", "CSV", "JSON", "SVG"}
+SOURCE = re.compile(r"\[[A-Z]{2,4}\d{2}[^\]]*\]")
+
+
+class Brackets(catalogues.Catalogue):
+    """A catalogue that has every sentence."""
+
+    def __init__(self) -> None:
+        super().__init__({}, lambda n: 0)
+
+    def template(self, text: Text) -> str:
+        """The template in brackets."""
+        english = text.several if text.several and text.n != 1 else text.template
+        return "⟧  ⟦[".join(f"⟦{english}⟧".split("  ["))  # axes: a name and, in square brackets, a unit
+
+
+def offer_brackets(monkeypatch) -> None:
+    """Have the language for one test; links with lang=xx open it."""
+    monkeypatch.setitem(catalogues.OFFERED, BRACKETS, "in brackets")
+    monkeypatch.setattr(catalogues, "_read", lambda language: Brackets())
+
+
+def speak_brackets(monkeypatch) -> None:
+    """The same, in use everywhere: AppTest asks widgets for their words outside of a session too."""
+    offer_brackets(monkeypatch)
+    monkeypatch.setattr(state, "language", lambda: BRACKETS)
+    monkeypatch.setattr("pages.common.words._told_by", [lambda: BRACKETS])
+
+
+def left_in_english(app: AppTest) -> list[str]:
+    """What the page shows outside brackets, but for symbols, numbers, foreign text and formulas."""
+    found = []
+    for place, text in visible(app):
+        bare = "" if text in FORMULAS else outside(text)
+        if any(word not in SYMBOLS for word in WORD.findall(bare)) or re.search(r"\d\.\d", bare):
+            found.append(f"{place}: {text}")
+    return found
+
+
+def outside(text: str) -> str:
+    """A text without markup, and without what is in brackets."""
+    return SOURCE.sub(" ", unescape(_without_brackets(MARKUP.sub(" ", _without_brackets(text)))))
+
+
+def _without_brackets(text: str) -> str:
+    before = ""
+    while text != before:
+        text, before = INNER.sub(" ", text), text
+    return text
+
+
+def visible(app: AppTest) -> Iterator[tuple[str, str]]:
+    """Every text on the page with the kind of element it stands in."""
+
+    def walk(node) -> Iterator[tuple[str, str]]:
+        proto = getattr(node, "proto", None)
+        if proto is not None:
+            kind = type(proto).__name__
+            if kind == "PlotlyChart":
+                yield from ((f"figure, {where}", text) for where, text in _of_figure(json.loads(proto.spec)))
+                yield "figure, alt", proto.alt
+            elif kind in ("Arrow", "Dataframe"):
+                yield from _of_table(node.value, getattr(proto, "columns", ""))
+            elif kind == "BidiComponent":
+                yield from _of_component(proto)
+            elif kind != "Text":  # addresses, which have no language
+                yield from ((f"{kind}, {where}", text) for where, text in _of_proto(proto))
+        for child in getattr(node, "children", {}).values():
+            yield from walk(child)
+
+    yield from walk(app._tree)
+
+
+def _of_component(proto) -> Iterator[tuple[str, str]]:
+    """What a component of ours is told beside foreign text and numbers."""
+    for name, text in json.loads(proto.json or "{}").items() if proto.HasField("json") else ():
+        if isinstance(text, str) and name not in FOREIGN:
+            yield f"{proto.component_name}, {name}", text
+
+
+def _of_proto(proto) -> Iterator[tuple[str, str]]:
+    for field, value in proto.ListFields():
+        if field.name in NOT_SEEN:
+            continue
+        for each in value if field.is_repeated else (value,):
+            if isinstance(each, str):
+                yield field.name, each
+            elif hasattr(each, "ListFields"):
+                yield from _of_proto(each)
+
+
+def _of_figure(node, name: str = "") -> Iterator[tuple[str, str]]:
+    if isinstance(node, str):
+        if name in IN_FIGURES:
+            yield name, node
+    elif isinstance(node, dict):
+        for inner, value in node.items():
+            if inner != "template":
+                yield from _of_figure(value, inner)
+    elif isinstance(node, list):
+        for value in node:
+            yield from _of_figure(value, name)
+
+
+def _of_table(table: pd.DataFrame, columns: str) -> Iterator[tuple[str, str]]:
+    labels = {name: column.get("label") for name, column in json.loads(columns or "{}").items()}
+    for name in table.columns:
+        yield "column", labels.get(name) or str(name)
+        for cell in table[name]:
+            if isinstance(cell, str):
+                yield f"cell of {name}", cell
