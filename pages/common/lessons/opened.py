@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 
-from pages.common.from_data.work import USUAL, Work, work_on_example
+from pages.common.from_data.work import Work, work_on_example
 from pages.common.lessons.lesson import BASE, Lesson
 from pages.common.rules.table import key_of, question_of
 from pages.common.session import links
@@ -25,6 +25,7 @@ from simc_core import (
     ultimate,
 )
 from simc_core.errors import InvalidParameter, NotStable
+from simc_core.identification.rank import USUAL
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Reduction
 from simc_core.studies.comparison import Row
