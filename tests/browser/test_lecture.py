@@ -172,7 +172,7 @@ def test_a_page_without_an_instrument_is_for_the_last_row_too_and_tells_step_by_
         "texts => texts.filter(t => t.textContent).map(t => parseFloat(getComputedStyle(t).fontSize))"
     )
     assert min(sizes) >= 28
-    steps = page.locator(".st-key-story [data-testid=stMarkdown]")
+    steps = page.locator(".st-key-story li")
     expect(steps.nth(0)).to_be_visible()
     expect(steps.nth(1)).to_be_hidden()
     page.keyboard.press("ArrowRight")

@@ -42,6 +42,34 @@ def test_from_play_to_the_numbers_and_again_from_a_link_after_a_reload(server, o
     expect(page.locator(".st-key-cards_subject_3")).to_contain_text("✓ predicted")  # kept by the browser
 
 
+DRAWN = "figure[data-panel=sensitivity] canvas"
+INK = "canvas => canvas.toDataURL()"
+
+
+def test_a_panel_that_was_out_of_sight_shows_the_design_of_the_step_and_no_former_one(server, open_page):
+    page = open_page(f"{server}/lessons?lesson=V1&step=5")
+    panels(page)
+    idle(page)
+    wanted = page.locator(DRAWN).evaluate(INK)
+    page.goto(f"{server}/lessons?lesson=V1&step=3")
+    for step in (4, 5):
+        panels(page)
+        idle(page)
+        page.keyboard.press("n")
+        page.wait_for_url(re.compile(f"step={step}"))
+    panels(page)
+    wait_until(page, lambda: page.locator(DRAWN).evaluate(INK) == wanted, "|S| is that of the step opened by its link")
+
+
+def test_a_question_is_for_the_last_row_too(server, open_page):
+    """Where there is no instrument the page itself grows."""
+    page = open_page(f"{server}/lessons?lesson=V1&step=2&lecture=1")
+    expect(page.get_by_test_id("stSidebar")).to_be_hidden()
+    expect(page.get_by_role("heading", level=2)).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(page.get_by_test_id("stSidebar")).to_be_visible()
+
+
 def test_what_was_moved_outlasts_a_reload_and_is_put_back_with_one_key(server, open_page):
     page = open_page(f"{server}/lessons?lesson=V1&step=3")
     panels(page)

@@ -53,7 +53,8 @@ def test_the_slider_and_the_curve_it_moves_are_on_one_screen(phone, server):
     phone.get_by_role("button", name="All numbers").tap()
     assert phone.locator(".strip [data-figure]:visible").count() > 8
     phone.get_by_role("button", name="All numbers").tap()
-    pinch(phone)
+    for _ in range(4):
+        pinch(phone)
 
 
 def pinch(page: Page) -> None:
@@ -69,7 +70,7 @@ def pinch(page: Page) -> None:
         touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
     touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
     expect(whole).to_be_visible()
-    whole.dispatch_event("click")  # a finger that comes so soon after two others is taken for a third
+    whole.tap()  # a finger that comes so soon after two others makes no click in Chromium
     expect(whole).to_be_hidden()
 
 

@@ -6,9 +6,10 @@ import { test } from "node:test";
 import { marginsOf } from "../../pages/common/live/cascade/loops.js";
 import { nearest, round, text } from "../../pages/common/live/kit/format.js";
 import { crowded, typeFor } from "../../pages/common/live/kit/lecture.js";
+import { namesOf } from "../../pages/common/live/kit/names.js";
 import { seen } from "../../pages/common/live/kit/overlay.js";
 import { logTicks, square } from "../../pages/common/live/kit/panel.js";
-import { stretched } from "../../pages/common/live/kit/pinch.js";
+import { bounded, stretched } from "../../pages/common/live/kit/pinch.js";
 import { between, mix, sensitivities, stencil, unpack } from "../../pages/common/live/kit/table.js";
 
 const cases = JSON.parse(readFileSync(process.env.SIMC_CASES, "utf-8"));
@@ -104,4 +105,58 @@ test("what lay under two fingers stays under them, on a logarithmic axis too", (
     close(value(found, 0.9), value(limits, 0.6), 1e-9, "the second one");
     assert.deepEqual(stretched(limits, log, [0.5, 0.51], [0.4, 0.6]), limits);
   }
+});
+
+test("a zoom ends before ticks and numbers do, however often it is done again", () => {
+  assert.ok(bounded([0, 160], [0, 160], false));
+  assert.ok(!bounded([200, 300], [0, 160], false), "nothing of the curves in sight");
+  assert.ok(!bounded([1, Number.NaN], [0, 160], false));
+  for (const [whole, log] of [
+    [[0, 160], false],
+    [[0.01, 100], true],
+  ])
+    for (const [from, to] of [
+      [
+        [0.05, 0.95],
+        [0.45, 0.55],
+      ],
+      [
+        [0.45, 0.55],
+        [0.05, 0.95],
+      ],
+    ]) {
+      let limits = whole;
+      for (let i = 0; i < 500; i++) {
+        const next = stretched(limits, log, from, to);
+        if (bounded(next, whole, log)) limits = next;
+      }
+      assert.ok(limits[1] > limits[0]);
+      assert.ok(logTicks(...(log ? limits : [1, 10])).length < 1000);
+    }
+});
+
+test("a pinned curve is named where it is farthest from the others, and stays named there under a hand", () => {
+  const u = { over: { clientWidth: 100, clientHeight: 100 }, valToPos: (v, axis) => (axis === "x" ? v : 100 - v) };
+  const x = Array.from({ length: 101 }, (_, i) => i);
+  const bump = (at, high) => ({ x, y: x.map((t) => 50 + high * Math.exp(-(((t - at) / 10) ** 2))) });
+  const styles = [{ aid: true }, { name: "A" }, { name: "B" }, {}];
+  const panel = { spec: { styles }, curves: [bump(50, 0), bump(20, 30), bump(70, 30), bump(0, 0)], hides: "" };
+  assert.deepEqual(
+    namesOf(panel, u).map(({ x: t, label }) => [t, label]),
+    [
+      [20, "A"],
+      [70, "B"],
+    ],
+  );
+  panel.curves[1] = bump(40, 30);
+  panel.moving = true;
+  assert.equal(namesOf(panel, u)[0].x, 20);
+  panel.moving = false;
+  assert.equal(namesOf(panel, u)[0].x, 40);
+  assert.deepEqual(namesOf({ ...panel, hides: "curves" }, u), []);
+  const alike = { ...panel, curves: [x, x, x, x].map(() => bump(50, 0)) };
+  assert.ok(
+    namesOf(alike, u).every(({ x: t }) => t === 100),
+    "at their ends",
+  );
 });

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import pytest
 
@@ -56,7 +57,7 @@ def test_whether_order_two_pays_is_said():
 def test_the_error_comes_as_numbers_with_a_verdict():
     text = said(reduced())
     assert "Good enough" in text
-    assert "RMS86 eq. 10" in text
+    assert re.search(r"limit 1 \\\[\[RMS86\]\(.*?\) eq\. 10", text)  # a link to the source
     # at t = 7 the model still waits, the plant is 4 past its dead time: 1 - 4.5 e^{-4/6} + 4 e^{-1} - 0.5 e^{-2}
     y = 1 - 4.5 * math.exp(-4 / 6) + 4 * math.exp(-1) - 0.5 * math.exp(-2)
     assert f"**{y:.3g}**" in text

@@ -131,7 +131,10 @@ def test_what_is_wrong_with_a_file_is_named_with_its_field(old, new, said):
         check_designs(read_lesson(GOOD.replace(old, new, 1)))
 
 
-@pytest.mark.parametrize("data", [b"\xff\xfe", b"a" * (LARGEST + 1), b"", b"[" * 5000, b"x = 1"])
+@pytest.mark.parametrize(
+    "data",
+    [b"\xff\xfe", b"a" * (LARGEST + 1), b"", b"[" * 5000, b"x = 1", b"x = " + 5000 * b"1", b"id = 0x" + 9000 * b"f"],
+)
 def test_what_is_no_lesson_is_refused_in_words(data):
     with pytest.raises(InvalidParameter):
         read_lesson(data)
@@ -178,6 +181,9 @@ def test_checks_are_computed(check, met):
         ("secret(PI) > 1", "no quantity secret"),
         ("Ms(PI) > 1 2", "a check ends"),
         ("Ms(PI) > 1/0", "zero"),
+        ("Ms(PI) = 1.6 ~ Ms", "a check ends"),
+        ("Ms(PI) = 1e400", "a check ends"),
+        ("behind_FOPDT(PI) < 1", "example must be one of"),
         ("__import__('os') = 1", "not understood"),
         ("Ms(PI) =", "missing at the end"),
         ("tau2(PI) > 1", "the model has no tau2"),

@@ -160,6 +160,9 @@ def test_where_the_list_of_loops_is_full_a_lesson_says_so_and_shows_nothing_else
     app.run()
     assert "delete one first" in app.error[0].value
     assert V1.moves[0].text not in texts(app)
+    press(app, "lesson_close")
+    press(app, "open_V1")  # from the list too
+    assert "delete one first" in app.error[0].value
 
 
 @pytest.mark.parametrize(

@@ -311,7 +311,7 @@ def test_the_best_of_SG12_is_the_one_that_is_printed(name, J):
 def test_the_page_opens_on_every_preset(name):
     app = rules(compared_plant=name)
     assert not app.exception
-    assert ("printed in [SK98]" in texts(app)) == bool(USUAL[name].printed)
+    assert ("Settings printed in" in texts(app)) == bool(USUAL[name].printed)
 
 
 def test_what_is_said_of_SIMC_is_true_of_an_oscillating_plant_too():

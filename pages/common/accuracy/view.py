@@ -5,6 +5,7 @@ from html import escape
 
 import streamlit as st
 
+from pages.common.parts.sources import linked
 from pages.common.parts.symbols import symbols
 from pages.common.words import numeral, translated, words
 from simc_core.published.checks import GROUPS, Check
@@ -42,16 +43,15 @@ def summary(checks: list[Check]) -> None:
             why = found.fault or words(
                 "expected {expected}, found {ours}", expected=value_text(row.expected), ours=value_text(found.ours)
             )
-            st.error(
-                words(
-                    "**{group}: {what}, {quantity}** [{source}]: {why}",
-                    group=row.group,
-                    what=row.what,
-                    quantity=row.quantity,
-                    source=translated(row.source).strip("[]"),
-                    why=why,
-                )
+            told = words(
+                "**{group}: {what}, {quantity}** [{source}]: {why}",
+                group=row.group,
+                what=row.what,
+                quantity=row.quantity,
+                source=translated(row.source).strip("[]"),
+                why=why,
             )
+            st.error(linked(told))
 
 
 def summary_html(checks: list[Check]) -> str:
@@ -76,7 +76,8 @@ def groups(checks: list[Check]) -> None:
     for number, group in enumerate(GROUPS):
         found = [each for each in checks if each.reference.group == group]
         met = sum(each.met for each in found)
-        st.markdown(words("**{group}**, {met} of {n}. {why}", group=group, met=met, n=len(found), why=WHY[group]))
+        told = words("**{group}**, {met} of {n}. {why}", group=group, met=met, n=len(found), why=WHY[group])
+        st.markdown(linked(told))
         with st.container(key=f"references_{number}"):
             st.table(table(found))
 

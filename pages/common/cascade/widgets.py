@@ -8,6 +8,7 @@ from streamlit.delta_generator import DeltaGenerator
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
 from pages.common.parts.settings_text import form_shown
+from pages.common.parts.sources import linked
 from pages.common.parts.units import time_text
 from pages.common.plant.entry import plant_entry
 from pages.common.session import state
@@ -70,9 +71,11 @@ def method() -> None:
             format_func=METHOD_NAMES.get,
             key="method",
             on_change=_take_method,
-            help="SIMC: half rule and $\\tau_c$, inner loop first, then the outer one on what it sees [SK03]. Direct "
-            "synthesis: a Maclaurin expansion of the controller that gives a wanted response, for integrating and "
-            "unstable blocks too [PSB].",
+            help=linked(
+                "SIMC: half rule and $\\tau_c$, inner loop first, then the outer one on what it sees [SK03]. Direct "
+                "synthesis: a Maclaurin expansion of the controller that gives a wanted response, for integrating and "
+                "unstable blocks too [PSB]."
+            ),
         )
         design_number(
             "b_outer",
@@ -193,7 +196,7 @@ def _filter(loop: str, under: DeltaGenerator) -> None:
 def _cancel() -> None:
     st.checkbox(
         "τF cancels the inner zero",
-        help="$\\tau_F = \\eta_1$ of the inner loop in place of $\\lambda/N$; for $K_d \\leq 0$ [PSB].",
+        help=linked("$\\tau_F = \\eta_1$ of the inner loop in place of $\\lambda/N$; for $K_d \\leq 0$ [PSB]."),
         **state.bound(
             "filter_outer",
             show=lambda value: value == "zero",

@@ -160,9 +160,11 @@ def comparison(study: Study) -> None:
             figure = model_error_figure(compared.omega, compared.error, compared.bound, HEIGHT)
             show(figure, "error", words("Relative model error"))
             st.caption(
-                words(
-                    "The loop designed on the model $G_r$ is stable around $G$ where $|G - G_r|/|G_r| < 1/|T|$ at "
-                    "all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
+                linked(
+                    words(
+                        "The loop designed on the model $G_r$ is stable around $G$ where $|G - G_r|/|G_r| < 1/|T|$ at "
+                        "all frequencies, with $T$ of the model's loop [RMS86 eq. 10]."
+                    )
                 )
             )
     numbers(compared)
@@ -189,12 +191,11 @@ def numbers(compared: ModelError) -> None:
     if math.isnan(compared.used):
         place(words("{verdict}: the loop around the model itself is not stable.", verdict=verdict))
         return
-    place(
-        words(
-            "{verdict}: at worst {error} = {used} at {place}, limit 1 [RMS86 eq. 10].",
-            verdict=verdict,
-            error=r"$|G - G_r|\,|T|/|G_r|$",
-            used=number(compared.used, 3),
-            place=f"$\\omega = {typeset(latex_number(compared.omega_used, 3))}${frequency}",
-        )
+    told = words(
+        "{verdict}: at worst {error} = {used} at {place}, limit 1 [RMS86 eq. 10].",
+        verdict=verdict,
+        error=r"$|G - G_r|\,|T|/|G_r|$",
+        used=number(compared.used, 3),
+        place=f"$\\omega = {typeset(latex_number(compared.omega_used, 3))}${frequency}",
     )
+    place(linked(told))

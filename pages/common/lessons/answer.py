@@ -55,7 +55,7 @@ def _printed(lesson: Lesson) -> None:
     few, more = lesson.printed[:MOST_NUMBERS], lesson.printed[MOST_NUMBERS:]
     _table(lesson, few, cases)
     if more:
-        with st.expander(f"{len(more)} more printed numbers"):
+        with st.expander(f"{len(more)} more printed number{'s' * (len(more) > 1)}"):
             _table(lesson, more, cases)
 
 

@@ -13,11 +13,12 @@ import math
 import re
 from dataclasses import dataclass
 
+from pages.common.lessons.lesson import BASE
 from pages.common.lessons.opened import Cases
 from pages.common.lessons.quantities import QUANTITIES
 from simc_core.errors import InvalidParameter, SimcError
 
-TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d+)?(?:e[-+]?\d+)?|inf\b)|([A-Za-z]\w*)(?:\((\w+)\))?|([-+*/<>=~]))")
+TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d+)?(?:e[-+]?\d{1,2})?|inf\b)|([A-Za-z]\w*)(?:\((\w+)\))?|([-+*/<>=~]))")
 ROUNDING = 1e-9  # relative: a number that is printed as 1.375 may be met from either side
 
 
@@ -35,8 +36,8 @@ def checked(check: str, cases: Cases) -> Outcome:
     """Whether a check is met; what cannot be computed is a fault, not an exception."""
     try:
         left, relation, right, tolerance = _parsed(check, cases)
-    except (SimcError, ZeroDivisionError) as error:
-        return Outcome(False, fault=str(error) or "division by zero")
+    except SimcError as error:
+        return Outcome(False, fault=str(error))
     if relation == "<":
         met = left < right
     elif relation == ">":
@@ -69,7 +70,7 @@ def _parsed(check: str, cases: Cases) -> tuple[float, str, float, float]:
     relation, after = rest[0], rest[1:]
     right, rest = _sum(after, cases)
     if rest:
-        if relation != "=" or rest[0] != "~" or len(rest) != 2:
+        if relation != "=" or rest[0] != "~" or len(rest) != 2 or not _is_number(rest[1]):
             raise InvalidParameter(f"a check ends, or goes on with ~ and a tolerance after =, found {rest[0]}")
         return left, relation, right, float(rest[1])
     alone = after[0] if len(after) == 1 else after[1] if len(after) == 2 and after[0] == "-" else ""
@@ -109,6 +110,8 @@ def _product(tokens: list[str], cases: Cases) -> tuple[float, list[str]]:
     value, tokens = _factor(tokens, cases)
     while tokens and tokens[0] in "*/":
         more, rest = _factor(tokens[1:], cases)
+        if tokens[0] == "/" and more == 0:
+            raise InvalidParameter("division by zero")
         value, tokens = value * more if tokens[0] == "*" else value / more, rest
     return value, tokens
 
@@ -122,4 +125,7 @@ def _factor(tokens: list[str], cases: Cases) -> tuple[float, list[str]]:
     name, _, case = first.rstrip(")").partition("(")
     if name not in QUANTITIES:
         raise InvalidParameter(f"there is no quantity {name[:30]}")
-    return QUANTITIES[name].of(cases[case or "base"]), rest
+    try:
+        return QUANTITIES[name].of(cases[case or BASE]), rest
+    except ArithmeticError:
+        raise InvalidParameter(f"{name} cannot be computed here") from None

@@ -1,5 +1,6 @@
 """Where in which lesson one is, and the loop that lessons use: those of one's own work stay as they are."""
 
+from contextlib import suppress
 from dataclasses import replace
 
 import streamlit as st
@@ -9,6 +10,7 @@ from pages.common.lessons.opened import design_of
 from pages.common.lessons.shelf import lessons
 from pages.common.session import state
 from pages.common.session.design import Design
+from simc_core.errors import InvalidParameter
 
 TAG = "Lesson "
 FILE = "file"  # the place of a lesson that was opened from a file, which no link opens elsewhere
@@ -27,8 +29,9 @@ def step_now(lesson: Lesson) -> int:
 
 
 def open_at(lesson: Lesson, step: int) -> None:
-    """Go to a step of a lesson, with what stands there at first."""
-    put_back(lesson, step)
+    """Go to a step of a lesson, with what stands there at first; where the list of loops is full, `arrive` says so."""
+    with suppress(InvalidParameter):
+        put_back(lesson, step)
     state.go_to_place(lesson=lesson.id if lesson.own else FILE, step=str(step))
 
 
@@ -62,6 +65,7 @@ def arrive(lesson: Lesson, step: int) -> None:
     """Open what a link, or another way to this place, asks for; what was moved here stays.
 
     A link that holds a design too has been moved, and is taken as it is.
+    Raises InvalidParameter where the list of loops is full.
     """
     at = state.lasting("lesson_at", lambda: None)
     state.place_stands_for(at_first(lesson, lesson.move_at(step)))

@@ -9,9 +9,9 @@ from pages.common.lessons.read import read_lesson
 from pages.common.lessons.shelf import DATA, NO_PAPER, by_paper, by_subject
 from pages.common.lessons.texts import named, shown
 from pages.common.parts.foreign_text import exact, told
-from pages.common.parts.refusals import explain_refusal
 from pages.common.parts.sources import cited, linked
 from pages.common.session import state
+from pages.common.shell.lecture import lecture
 from simc_core.errors import SimcError
 
 ORDERS = {"subject": "By subject", "paper": "By paper"}
@@ -20,6 +20,7 @@ EXAMPLE = DATA / "V1.toml"
 
 def list_view() -> None:
     """The list."""
+    lecture("lessons", instrument=False)
     if asked := state.place().get("lesson"):
         st.warning(f"There is no lesson {exact(asked[:20])} here; these are there.")
     with st.container(key="lesson_title"):
@@ -52,10 +53,8 @@ def _cards(found: list[Lesson], name: str) -> None:
             with st.container(border=True, height="stretch", vertical_alignment="distribute", gap="xsmall"):
                 source = f"{cited(lesson.source)} {shown(lesson, lesson.where)}" if lesson.source else NO_PAPER
                 st.markdown(" · ".join(filter(None, [source, progress.word(lesson)])))
-                with explain_refusal():
-                    if st.button(named(lesson, lesson.title), key=f"open_{lesson.id}", width="stretch"):
-                        in_use.open_at(lesson, 1)
-                        st.rerun()
+                title = named(lesson, lesson.title)
+                st.button(title, key=f"open_{lesson.id}", width="stretch", on_click=in_use.open_at, args=(lesson, 1))
 
 
 def _from_file() -> None:

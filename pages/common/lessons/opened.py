@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 
-from pages.common.from_data.work import USUAL, Work, work_on_example
+from pages.common.from_data.work import Work, work_on_example
 from pages.common.lessons.lesson import BASE, Lesson
 from pages.common.rules.table import key_of, question_of
 from pages.common.session import links
@@ -13,22 +13,19 @@ from pages.common.studies.cascade import CascadeStudy
 from pages.common.studies.cascade import study as cascade_study
 from pages.common.studies.single import Study, present_study
 from simc_core import (
-    Bandwidth,
     Identified,
     Margins,
-    Quality,
     Relay,
     StaticErrors,
     Ultimate,
-    bandwidth,
     comparison,
     relay_test,
     sampled_margins,
     static_errors,
-    step_quality,
     ultimate,
 )
 from simc_core.errors import InvalidParameter, NotStable
+from simc_core.identification.rank import USUAL
 from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Reduction
 from simc_core.studies.comparison import Row
@@ -85,19 +82,9 @@ class Opened:
         return half_rule(self.design.plant, asked.order, asked.h, rules=asked.rules, tau_F=asked.tau_F)
 
     @cached_property
-    def steps(self) -> Quality:
-        """Of unit steps."""
-        return step_quality(self.stable.loop)
-
-    @cached_property
     def rest(self) -> StaticErrors:
         """In the long run."""
         return static_errors(self.stable.loop)
-
-    @cached_property
-    def band(self) -> Bandwidth:
-        """Bandwidths and noise gain."""
-        return bandwidth(self.stable.loop)
 
     @cached_property
     def ultimate(self) -> Ultimate:
@@ -145,6 +132,8 @@ class Opened:
     def fit(self) -> Identified:
         """The structure that is chosen, else the best."""
         structure = self.design.record.structure
+        if structure and structure not in self.fits:
+            raise InvalidParameter(f"structure {structure} is none of those fitted here, {', '.join(self.fits)}")
         return self.fits[structure] if structure else next(iter(self.fits.values()))
 
     @cached_property

@@ -56,10 +56,6 @@ def _step(which: str, name: str, factor: float = 1.0) -> Callable[[Opened], floa
     return lambda case: factor * getattr(getattr(case.stable.performance, which), name)
 
 
-def _quality(which: str, name: str) -> Callable[[Opened], float]:
-    return lambda case: getattr(getattr(case.steps, which), name)
-
-
 def _nested(name: str, metric: str, single: bool = False) -> Callable[[Opened], float]:
     def of(case: Opened) -> float:
         study = case.cascade
@@ -84,7 +80,12 @@ def _fitted(name: str, error: bool = False) -> Callable[[Opened], float]:
 
 
 def _behind(structure: str) -> Callable[[Opened], float]:
-    return lambda case: case.fits[structure].criterion
+    def of(case: Opened) -> float:
+        if structure not in case.fits:
+            raise InvalidParameter(f"{structure} cannot be fitted to this record")
+        return case.fits[structure].criterion
+
+    return of
 
 
 def _possible(case: Opened) -> float:
@@ -122,6 +123,8 @@ def _peak_y(of: str) -> Callable[[Opened], float]:
         if course is None:
             raise InvalidParameter("the input has no limits")
         before = (course.t < course.t[np.argmax(course.d != 0)]) if np.any(course.d) else course.t >= 0
+        if not before.any() or not course.r.max() > 0:
+            raise InvalidParameter("an overshoot needs a step of the set point upwards, and time before the load")
         return 100 * (float(course.y[before].max()) / float(course.r.max()) - 1)
 
     return peak
@@ -154,17 +157,17 @@ QUANTITIES: dict[str, Quantity] = {
     "overshoot": Quantity("overshoot of a set-point step, percent", _step("setpoint", "overshoot", 100.0)),
     "rise": Quantity("from 10 to 90 %", _step("setpoint", "rise_time")),
     "settling_2": Quantity("settling to 2 %, set point", _step("setpoint", "settling_time")),
-    "settling_5": Quantity("settling to 5 %, set point", _quality("setpoint", "settling_5")),
-    "settling_1": Quantity("settling to 1 %, set point", _quality("setpoint", "settling_1")),
-    "arrival": Quantity("when y first reaches the set point", _quality("setpoint", "first_arrival")),
-    "period": Quantity("from the first peak to the second, set point", _quality("setpoint", "period")),
-    "period_load": Quantity("the same after a load step", _quality("disturbance", "period")),
+    "settling_5": Quantity("settling to 5 %, set point", _step("setpoint", "settling_5")),
+    "settling_1": Quantity("settling to 1 %, set point", _step("setpoint", "settling_1")),
+    "arrival": Quantity("when y first reaches the set point", _step("setpoint", "first_arrival")),
+    "period": Quantity("from the first peak to the second, set point", _step("setpoint", "period")),
+    "period_load": Quantity("the same after a load step", _step("disturbance", "period")),
     "swing": Quantity("period of the closed-loop pole that swings longest", _swing),
-    "decay": Quantity("second peak over the first, set point", _quality("setpoint", "decay_ratio")),
-    "largest_u": Quantity("largest |u| after a set-point step", _quality("setpoint", "largest_u")),
+    "decay": Quantity("second peak over the first, set point", _step("setpoint", "decay_ratio")),
+    "largest_u": Quantity("largest |u| after a set-point step", _step("setpoint", "largest_u")),
     "offset": Quantity("error left after a set-point step, percent", lambda case: 100 * case.rest.step),
     "ramp_error": Quantity("error behind a set-point ramp of 1 per time", lambda case: case.rest.ramp),
-    "noise_gain": Quantity("largest |K S|, inf for a derivative without filter", lambda case: case.band.max_KS),
+    "noise_gain": Quantity("largest |K S|, inf for a derivative without filter", _margin("max_KS")),
     "Ku": Quantity("ultimate gain of the plant", lambda case: case.ultimate.Ku),
     "omega_u": Quantity("frequency of the ultimate point", lambda case: 2 * math.pi / case.ultimate.Pu),
     "gain_u": Quantity("gain of the plant there, 1/Ku", lambda case: 1 / case.ultimate.Ku),

@@ -20,7 +20,7 @@ def read_lesson(data: bytes, own: bool = False) -> Lesson:
         content = tomllib.loads(data.decode("utf-8-sig").replace("\r\n", "\n"))
     except UnicodeDecodeError:
         raise InvalidParameter("a lesson is a text in UTF-8") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # also a number of thousands of digits
         raise InvalidParameter(f"the file is no TOML: {str(error)[:200]}") from None
     return lesson_of(content, own)
 
@@ -84,14 +84,21 @@ def _typed(name: str, kind: Any, value: Any) -> Any:
         return value
     right, words = WANTED[kind]
     if not right(value):
-        raise InvalidParameter(f"{name} must be {words}, found {str(value)[:30]}")
+        raise InvalidParameter(f"{name} must be {words}, found {_short(value)}")
     return tuple(value) if isinstance(value, list) else value
 
 
 def _table(place: str, value: Any) -> dict[str, Any]:
     if not isinstance(value, dict):
-        raise InvalidParameter(f"{place} must be a table of fields, found {str(value)[:30]}")
+        raise InvalidParameter(f"{place} must be a table of fields, found {_short(value)}")
     return value
+
+
+def _short(value: Any) -> str:
+    try:
+        return str(value)[:30]
+    except ValueError:  # a hexadecimal number of thousands of digits
+        return "a number"
 
 
 def _texts(place: str, value: Any, most: int) -> dict[str, str]:
@@ -100,5 +107,7 @@ def _texts(place: str, value: Any, most: int) -> dict[str, str]:
         raise InvalidParameter(f"{place} must have at most {most} fields, found {len(table)}")
     for name, text in table.items():
         if not isinstance(text, str):
-            raise InvalidParameter(f'{place}: {str(name)[:30]} must be a text in quotes, as in a link: "{text!s:.20}"')
+            raise InvalidParameter(
+                f'{place}: {str(name)[:30]} must be a text in quotes, as in a link: "{_short(text)}"'
+            )
     return table

@@ -13,6 +13,7 @@ from pages.common.parts.refusals import explain_refusal
 from pages.common.parts.sources import cited
 from pages.common.session import state
 from pages.common.session.design import Design
+from pages.common.shell.lecture import lecture
 
 LETTERS = "ABCDE"
 QUESTION = 2
@@ -21,6 +22,7 @@ QUESTION = 2
 def lesson_view(lesson: Lesson) -> None:
     """The step that the address names."""
     step = in_use.step_now(lesson)
+    lecture("lessons", step != QUESTION and lesson.move_at(step).shows in MOVING)
     _title(lesson, step)
     with explain_refusal():
         in_use.arrive(lesson, step)
@@ -48,12 +50,13 @@ def about(lesson: Lesson, design: Design) -> None:
     """The plant, typeset."""
     if lesson.move_at(1).shows == "trend":
         return
-    if lesson.subject == "cascade":
-        blocks = design.cascade.primary, design.cascade.secondary
-        for name, block in zip("ab", blocks, strict=True):
-            st.markdown(f"$G_{name}(s) = {fitted(block)}$")
-    else:
-        st.markdown(f"$G(s) = {fitted(design.plant)}$")
+    with st.container(key="lesson_plant"):
+        if lesson.subject == "cascade":
+            blocks = design.cascade.primary, design.cascade.secondary
+            for name, block in zip("ab", blocks, strict=True):
+                st.markdown(f"$G_{name}(s) = {fitted(block)}$")
+        else:
+            st.markdown(f"$G(s) = {fitted(design.plant)}$")
 
 
 def _title(lesson: Lesson, step: int) -> None:

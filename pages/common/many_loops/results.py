@@ -8,6 +8,7 @@ import streamlit as st
 from pages.common.many_loops.as_design import design_of
 from pages.common.many_loops.source import Work, begin
 from pages.common.parts.foreign_text import exact, told
+from pages.common.parts.large import roomy
 from pages.common.parts.refusals import explain_refusal
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
@@ -93,7 +94,7 @@ def browse(work: Work) -> None:
         placeholder="–",
         hide_index=True,
         width="stretch",
-        height=min(36 * len(found) + 40, 420),
+        height=roomy(min(36 * len(found) + 40, 420)),
         on_select="rerun",
         selection_mode="single-row",
         key=f"loops_table_{shown}_{wanted}_{len(found)}",

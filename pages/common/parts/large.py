@@ -1,12 +1,19 @@
-"""A figure for the last row of a lecture hall: all its letters at one size."""
+"""Figures and tables for the last row of a lecture hall: all letters at one size, and room for them."""
 
 from typing import Any
 
+from pages.common.session.lecture import lecturing
 from simc_core.figures import Figure
 
 LETTERS = 28  # px, about 10 minutes of arc from the last row on a screen of 1920 x 1080
+USUAL = 16  # px, of a page
 HEIGHT = 620  # px at the least: on a screen of 1366 x 768 it is in sight whole
 WIDER = 1.8  # lines
+
+
+def roomy(size: int) -> int:
+    """px of a table or field, which grow with the letters while this page is a lecture."""
+    return round(size * LETTERS / USUAL) if lecturing() else size
 
 
 def large(figure: Figure) -> Figure:

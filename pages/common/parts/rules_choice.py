@@ -3,6 +3,7 @@
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
+from pages.common.parts.sources import linked
 from pages.common.session import state
 from pages.common.words import words
 
@@ -15,9 +16,11 @@ def rules_choice(place: DeltaGenerator | None = None) -> None:
         words("Rules for zeros"),
         list(NAMES),
         format_func=NAMES.get,
-        help=words(
-            "2003: rules T1 to T3 [SK03 sect. 2.2]. 1998: the simpler, older form [SK98]: small zeros are "
-            "subtracted from the delay, a large one is cancelled."
+        help=linked(
+            words(
+                "2003: rules T1 to T3 [SK03 sect. 2.2]. 1998: the simpler, older form [SK98]: small zeros are "
+                "subtracted from the delay, a large one is cancelled."
+            )
         ),
         **state.bound("rules"),
     )

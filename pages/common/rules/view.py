@@ -5,8 +5,10 @@ from collections.abc import Sequence
 import streamlit as st
 
 from pages.common.live import plane_instrument
+from pages.common.parts.large import roomy
 from pages.common.parts.number_field import design_number
 from pages.common.parts.panel import show
+from pages.common.parts.sources import linked
 from pages.common.rules import curves
 from pages.common.rules.plane import ground as ground_of
 from pages.common.rules.table import Question, frame, key_of, rows_of, shown, title_of
@@ -45,7 +47,7 @@ def ask(design: Design) -> None:
         plants = {PRESENT: "the plant of this design"} | {
             name: f"{plain(usual.plant)}, {usual.name}" for name, usual in USUAL.items()
         }
-        st.selectbox("Plant", list(plants), format_func=plants.get, width=260, **state.bound("compared_plant"))
+        st.selectbox("Plant", list(plants), format_func=plants.get, width=roomy(260), **state.bound("compared_plant"))
         st.segmented_control("Controllers", KINDS, required=True, **state.bound("compared_kind"))
         st.segmented_control(
             "Rules",
@@ -69,7 +71,7 @@ def ask(design: Design) -> None:
             list(CRITERIA),
             format_func=CRITERIA.get,
             required=True,
-            help=J_HELP,
+            help=linked(J_HELP),
             **state.bound("compared_criterion"),
         )
         if design.compared.kind != "PI":
@@ -96,7 +98,7 @@ def ask(design: Design) -> None:
         printed = " and ".join(f"${latex(each)}$" for each in usual.printed)
         st.markdown(
             f"Compared on $G(s) = {latex(usual.plant)}$, not on the plant of this design."
-            + (f" Settings printed in [SK98]: {printed}." if printed else "")
+            + (" " + linked("Settings printed in [SK98]: ") + f"{printed}." if printed else "")
         )
 
 
@@ -125,7 +127,9 @@ def table(question: Question) -> list[Row]:
         rows.append(row)
         if growing and len(rows) % AT_ONCE == 0:
             bar.progress(len(rows) / question.total, f"{len(rows)} of {question.total} rules")
-            place.dataframe(shown(frame(rows, question, sheet)), hide_index=True, height=TALL, row_height=ROW)
+            place.dataframe(
+                shown(frame(rows, question, sheet)), hide_index=True, height=roomy(TALL), row_height=roomy(ROW)
+            )
     if growing:
         bar.empty()
     state.remember("rules_rows", [key_of(row) for row in rows])
@@ -133,8 +137,8 @@ def table(question: Question) -> list[Row]:
     place.dataframe(
         shown(found),
         hide_index=True,
-        height=TALL,
-        row_height=ROW,
+        height=roomy(TALL),
+        row_height=roomy(ROW),
         key="rules_table",
         on_select=_picked_in_table,
         selection_mode="single-row",
@@ -161,7 +165,7 @@ HELP = {
 
 def _columns(names: list[str]) -> dict:
     config = {name: st.column_config.Column(help=HELP.get(name.split(" [")[0].split(",")[0])) for name in names}
-    config["rule"] = st.column_config.Column(pinned=True, width=WIDE)
+    config["rule"] = st.column_config.Column(pinned=True, width=roomy(WIDE))
     return config
 
 

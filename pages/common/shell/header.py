@@ -64,7 +64,8 @@ def show(place: str) -> Design:
     if place not in NO_LOOP:
         _line(place, design)
     paper()
-    lecture(place)
+    if place != "lessons":  # each step of a lesson is another thing to show: lessons/view.py
+        lecture(place)
     _notices()
     with st.sidebar:
         loops_menu()

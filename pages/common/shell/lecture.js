@@ -1,22 +1,23 @@
 // Keys of the lecture view of a page: Esc leaves it, H hides numbers and curves, arrows go through a story.
 
+const STEPS = ".st-key-story > [data-testid=stElementContainer]";
 const VEILED = "veiled"; // class of the page while they are hidden
 const THEIRS = "input, textarea, [role=slider], [role=tab], [role=radio]"; // what has a use of its own for these keys
 
 export default function () {
   const page = document.querySelector("[data-testid=stMain]");
-  const steps = () => [...document.querySelectorAll(".st-key-story [data-testid=stMarkdown]")];
+  const steps = () => document.querySelectorAll(STEPS).length;
+  const hidden = document.head.appendChild(document.createElement("style")); // it holds for steps that come later too
   let shown = 0;
   const story = () => {
-    steps().forEach((step, i) => {
-      step.style.visibility = i > shown ? "hidden" : "";
-    });
+    // Streamlit's own words are made visible each
+    hidden.textContent = `${STEPS}:nth-child(n + ${shown + 2}) * { visibility: hidden }`;
   };
   const keys = {
     Escape: () => document.querySelector(".st-key-lecture_leave button")?.click(),
     h: () => page.classList.toggle(VEILED),
     ArrowRight: () => {
-      shown = Math.min(shown + 1, steps().length - 1);
+      shown = Math.min(shown + 1, Math.max(steps() - 1, 0));
       story();
     },
     ArrowLeft: () => {
@@ -33,6 +34,6 @@ export default function () {
   return () => {
     document.removeEventListener("keydown", press);
     page.classList.remove(VEILED);
-    for (const step of steps()) step.style.visibility = "";
+    hidden.remove();
   };
 }

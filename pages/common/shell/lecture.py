@@ -13,7 +13,7 @@ from pages.common.session.lecture import ask_lecture, asked_lecture, lecture_is,
 from pages.common.words import words
 
 HERE = Path(__file__).parent
-INSTRUMENTS = ("tuning", "cascade", "lessons")
+INSTRUMENTS = ("tuning", "cascade")
 THEIR_VIEWS = ("", "live", "responses", "tradeoff")
 
 _keys = st.components.v2.component(
@@ -32,9 +32,13 @@ def offer() -> None:
     )
 
 
-def lecture(place: str) -> None:
-    """The page for the last row, where a link or the button asked for it."""
-    asked = asked_lecture(leave=lambda view: place in INSTRUMENTS and view in THEIR_VIEWS)
+def lecture(place: str, instrument: bool | None = None) -> None:
+    """The page for the last row, where a link or the button asked for it.
+
+    instrument: whether there is one, to which its own views are left; None where the place tells.
+    """
+    there = place in INSTRUMENTS if instrument is None else instrument
+    asked = asked_lecture(leave=lambda view: there and view in THEIR_VIEWS)
     if asked:
         lecture_is({"place": place} | asked)
     on = lecturing()

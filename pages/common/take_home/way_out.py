@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.sources import cited
 from pages.common.parts.symbols import sentence
 from pages.common.session import state
 from pages.common.session.design import Design
@@ -34,8 +35,8 @@ def way_out(design: Design, present: Study, error: FormError) -> None:
         if band_of(Ms).tone == "alarm":
             return
         st.markdown(
-            f"Or a PI controller with the same integral gain and $\\tau_I = \\theta/3$, as in improved SIMC [SG12]: "
-            f"$M_s$ = {number(Ms)} instead of {number(present.margins.Ms)}."
+            f"Or a PI controller with the same integral gain and $\\tau_I = \\theta/3$, as in improved SIMC "
+            f"{cited('SG12')}: $M_s$ = {number(Ms)} instead of {number(present.margins.Ms)}."
         )
         st.button(
             "Take this PI as my settings",

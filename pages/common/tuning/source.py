@@ -8,6 +8,7 @@ import streamlit as st
 
 from pages.common.parts.number_field import number_field
 from pages.common.parts.settings_text import UNITS
+from pages.common.parts.sources import linked
 from pages.common.parts.units import unit_of
 from pages.common.session import state
 from pages.common.studies.single import Study, study_of_settings
@@ -43,9 +44,11 @@ def source_control(made: Study | None) -> None:
             FAMILY,
             format_func=NAMES.get,
             required=True,
-            help="Original: PI or PID [SK03]. Improved, PI: $\\tau_1 + \\theta/3$ in place of $\\tau_1$, for plants "
-            "where dead time dominates [SG12]. iSIMC, PID: $\\tau_D = \\theta/3$, and $\\tau_c$ down to $\\theta/2$ "
-            "[GS18]. The later two are made from the first-order model.",
+            help=linked(
+                "Original: PI or PID [SK03]. Improved, PI: $\\tau_1 + \\theta/3$ in place of $\\tau_1$, for plants "
+                "where dead time dominates [SG12]. iSIMC, PID: $\\tau_D = \\theta/3$, and $\\tau_c$ down to "
+                "$\\theta/2$ [GS18]. The later two are made from the first-order model."
+            ),
             **state.bound("rule"),
         )
 

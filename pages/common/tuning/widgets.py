@@ -67,8 +67,10 @@ def _slider(model: Model, tau_c: float) -> None:
         "Closed-loop time constant τc",
         ratios,
         format_func=lambda ratio: f"{number(ratio, 3)} {unit}".strip(),
-        help=r"The closed-loop time constant $\tau_c$ is the one tuning knob of SIMC: small is fast, large is robust "
-        r"and gentle on the input [SK03 sect. 3.3]. $\tau_c = \theta$ is tight.",
+        help=linked(
+            r"The closed-loop time constant $\tau_c$ is the one tuning knob of SIMC: small is fast, large is robust "
+            r"and gentle on the input [SK03 sect. 3.3]. $\tau_c = \theta$ is tight."
+        ),
         key="tau_c_slider",
         on_change=_slid,
         args=(model, scale),

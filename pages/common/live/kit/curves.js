@@ -32,7 +32,12 @@ export const measured = (words, what) => (LABELS[what] ? `${words} ${LABELS[what
 export const shadeOf = (color, i) => `${color}-pin-${(i % 4) + 1}`;
 
 export const pinned = (color, pins) =>
-  pins.map((_, i) => ({ color: shadeOf(color, i), dash: PIN_DASHES[i % PIN_DASHES.length], width: 1.6 }));
+  pins.map(({ name }, i) => ({
+    color: shadeOf(color, i),
+    dash: PIN_DASHES[i % PIN_DASHES.length],
+    width: 1.6,
+    name, // it stands at the curve, see names.js
+  }));
 
 /** What the last curves of the panel, called `names`, are at the instant or frequency nearest to the cursor. */
 const tellNearest = (axis, names, what) => (panel, at) => {

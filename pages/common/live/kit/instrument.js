@@ -84,6 +84,7 @@ export class Instrument {
   show() {
     if (!this.furnished || this.slider.tau_c === undefined) return;
     const now = this.reading();
+    for (const panel of this.views[this.view]?.panels ?? []) panel.moving = !now.exact;
     if (now.curves !== false) this.views[this.view]?.draw(now);
     this.figures(now);
     this.veil();

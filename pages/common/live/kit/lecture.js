@@ -89,9 +89,9 @@ export class Lecture {
 
   /** G(s) and C(s) as the page has them typeset, perhaps later than we come; MathML needs no style of its own. */
   tell(tries = 20) {
-    const found = [...document.querySelectorAll(":is(.st-key-line, .st-key-decided) .katex-mathml math")].filter(
-      (math) => /^[GC](_\w+)?\(s\)/.test(math.querySelector("annotation")?.textContent ?? ""),
-    );
+    const found = [
+      ...document.querySelectorAll(":is(.st-key-line, .st-key-decided, .st-key-lesson_plant) .katex-mathml math"),
+    ].filter((math) => /^[GC](_\w+)?\(s\)/.test(math.querySelector("annotation")?.textContent ?? ""));
     this.formulas.replaceChildren(
       ...found.map((math) => Object.assign(math.cloneNode(true), { style: "math-style: normal" })),
     );

@@ -1,15 +1,16 @@
 // One panel: uPlot draws axes, grid, curves and cursor; every curve brings its own x, L(jw) as the rest.
 
 import { button, isDecade, STEPS, text } from "./format.js";
+import { namesOf } from "./names.js";
 import { ghosts, seen } from "./overlay.js";
-import { pinch } from "./pinch.js";
+import { bounded, pinch, touched } from "./pinch.js";
 
 export const ALARM = "--simc-alarm";
 
 export class Panel {
   /**
    * key, title, legend [{text, color, dash}], x/y: {label, log, limits(panel)},
-   * styles [{color, dash, width, alpha, aid, fill}], aid: it only helps the eye;
+   * styles [{color, dash, width, alpha, aid, fill, name}], aid: it only helps the eye;
    * square: one unit is as long on both axes.
    * tell(panel, x, y): what to read at the cursor;   along: "t" or "omega", what the curves `names`, the last ones, are
    * drawn over, or along which they go in the order of `omega`.
@@ -34,6 +35,7 @@ export class Panel {
     this.unzoom = button("⟲ Reset zoom", "Or a double click on the curves", () => this.reset());
     this.unzoom.className = "unzoom";
     this.unzoom.hidden = true;
+    touched(this.unzoom, () => this.reset());
     this.single = button("⤢", "One panel or all");
     this.single.setAttribute("aria-label", `Show ${spec.title} alone or all`);
     this.box.querySelector("figcaption").append(this.unzoom, this.single);
@@ -101,14 +103,16 @@ export class Panel {
 
   redraw() {
     this.unzoom.hidden = !this.zoom;
-    if (this.chart && this.plot.clientWidth) this.chart.setData(this.chart.data, true);
+    this.stale = !this.plot.clientWidth; // what is out of sight is drawn when it comes back, see resize
+    if (this.chart && !this.stale) this.chart.setData(this.chart.data, true);
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.plot;
-    if (!this.chart || !width || !height || (width === this.chart.width && height === this.chart.height)) return;
-    this.chart.setSize({ width, height });
-    this.redraw(); // the limits of a square panel follow its shape
+    if (!this.chart || !width || !height) return;
+    const other = width !== this.chart.width || height !== this.chart.height;
+    if (other) this.chart.setSize({ width, height });
+    if (other || this.stale) this.redraw(); // the limits of a square panel follow its shape
   }
 
   /** Coloured ranges behind the curves: [x, y, width, height, colour] in pixels of the canvas, or of the page. */
@@ -143,7 +147,7 @@ export class Panel {
     const ratio = devicePixelRatio * this.scale;
     ctx.save();
     ctx.font = `${11 * ratio}px ${theme.font}`;
-    for (const { x, y, color, label, cross, align, below } of this.marks) {
+    for (const { x, y, color, label, cross, align, below } of [...this.marks, ...namesOf(this, u)]) {
       if (this.hides && color && !cross) continue;
       const a = u.valToPos(x, "x", true),
         b = u.valToPos(y, "y", true);
@@ -168,13 +172,14 @@ export class Panel {
         align === "right" || (!align && a + ctx.measureText(label).width + 8 * ratio > bbox.left + bbox.width);
       ctx.fillStyle = theme.text;
       ctx.textAlign = right ? "right" : "left";
-      ctx.fillText(
-        label,
-        a + (right ? -6 : 6) * ratio,
-        below
-          ? Math.min(b + 15 * ratio, bbox.top + bbox.height - 2 * ratio)
-          : Math.max(b - 5 * ratio, bbox.top + 10 * ratio),
-      );
+      const from = a + (right ? -6 : 6) * ratio;
+      const line = below
+        ? Math.min(b + 15 * ratio, bbox.top + bbox.height - 2 * ratio)
+        : Math.max(b - 5 * ratio, bbox.top + 10 * ratio);
+      ctx.strokeStyle = theme.page; // curves leave the letters free
+      ctx.lineWidth = 3 * ratio;
+      ctx.strokeText(label, from, line);
+      ctx.fillText(label, from, line);
     }
     if (this.note && !this.hides) {
       ctx.font = `600 ${13 * ratio}px ${theme.font}`;
@@ -192,11 +197,17 @@ export class Panel {
     const { left, top, width, height } = u.select;
     if (width < 6 && height < 6) return;
     const { x, y } = this.limits(u);
-    this.zoom = {
+    u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    this.zoomTo({
       x: width < 6 ? x : [u.posToVal(left, "x"), u.posToVal(left + width, "x")],
       y: height < 6 ? y : [u.posToVal(top + height, "y"), u.posToVal(top, "y")],
-    };
-    u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    });
+  }
+
+  /** Limits of both axes, unless they are beyond what can be drawn. */
+  zoomTo(limits) {
+    if (!["x", "y"].every((side) => bounded(limits[side], this.spec[side].limits(this), this.spec[side].log))) return;
+    this.zoom = limits;
     this.redraw();
   }
 

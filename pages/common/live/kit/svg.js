@@ -1,5 +1,6 @@
 // Panels as SVG: the same curves, ticks, labels and marks as on the canvas, as paths and text.
 
+import { namesOf } from "./names.js";
 import { ALARM, trace } from "./panel.js";
 
 export const escaped = (words) =>
@@ -104,7 +105,7 @@ function svgHead({ spec, scale, theme }, left, head) {
 function svgMarks(panel, width, height, size) {
   const { chart: u, scale, theme } = panel;
   const out = [];
-  for (const { x, y, color, label, cross, align, below } of panel.marks) {
+  for (const { x, y, color, label, cross, align, below } of [...panel.marks, ...namesOf(panel, u)]) {
     const a = u.valToPos(x, "x"),
       b = u.valToPos(y, "y"),
       r = 5 * scale;
