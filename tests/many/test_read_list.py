@@ -5,7 +5,7 @@ import pytest
 from simc_core import read_list, tune_chunk
 from simc_core.errors import InvalidParameter
 from simc_core.many.read_list import EXAMPLES, template
-from tests.identification.test_reading import workbook
+from tests.identification.test_reading_workbook import workbook
 
 
 def rows(text: str, coding: str = "utf-8") -> list[dict]:
