@@ -318,3 +318,9 @@ def test_what_is_said_of_SIMC_is_true_of_an_oscillating_plant_too():
     """[SK03 Table 1]: tau_I = 2 zeta tau0 there, of which the limit 4 (tau_c + theta) says nothing."""
     told = texts(run_page("rules", plant="exp(-s)/(4s^2+0.4s+1)", compared_kind="PID"))
     assert "For lags and integrators $\\tau_I \\le 4(\\tau_c + \\theta)$" in told
+
+
+def test_the_action_is_told_beside_a_negative_gain():
+    """The table has sizes: [SK03] Kc = tau1/(k (tau_c + theta)) is negative here."""
+    assert "direct action" in texts(run_page("rules", plant="-2.5 exp(-1.5s)/(12s+1)", rule="simc"))
+    assert "reverse action" in texts(run_page("rules", plant="2.5 exp(-1.5s)/(12s+1)", rule="simc"))

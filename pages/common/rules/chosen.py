@@ -31,7 +31,7 @@ def word(row: Row, question: Question) -> None:
     if row.controller is None:
         st.info(sentence(row.refusal))
     else:
-        st.markdown(f"$C(s) = {latex(row.controller)}$")
+        st.markdown(f"$C(s) = {latex(row.controller)}$, {row.controller.action} action")
     best = best_beside(question, row.kind, row.Mst) if row.Mst > 1 else None
     said = [words.MADE_FOR[row.key], words.here(row, best, question), words.robustness(row, question)]
     if rule and not row.in_domain and row.controller is not None:

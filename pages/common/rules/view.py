@@ -150,7 +150,7 @@ def table(question: Question) -> list[Row]:
 
 
 HELP = {
-    "Kc": "Settings in ideal form.",
+    "Kc": "Settings in ideal form; Kc as its size, the action has the sign: reverse where k > 0, direct where k < 0.",
     "Mst": "max(Ms, Mt) of the loop round the plant.",
     "as published": "max(Ms, Mt) of the rule as published.",
     "F": "The rule's own parameter, or the dead time in its formula, is multiplied by this.",
