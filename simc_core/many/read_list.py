@@ -196,7 +196,9 @@ def _row(i: int, row: Sequence[str], names: Sequence[str], time_unit: str) -> di
     found: dict[str, str | int] = {"row": i}
     found |= {name: cell for name, cell in zip(names, row, strict=False) if name and cell}
     if time_unit:
-        found.setdefault("time_unit", time_unit)
+        own = str(found.get("time_unit", time_unit))
+        # nobody can tell which of two is meant: such a row is refused by what then stands there
+        found["time_unit"] = own if own.lower() == time_unit else f"{own} (heading: {time_unit})"
     return found
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from simc_core import read_list, tune_chunk
+from simc_core import read_list, tune_chunk, tune_many
 from simc_core.errors import InvalidParameter
 from simc_core.many.read_list import EXAMPLES, template
 from tests.identification.test_reading_workbook import workbook
@@ -66,8 +66,11 @@ def test_units_beside_and_below_headings(text):
     assert [(row["tag"], row["time_unit"]) for row in rows(text)] == [("A", "min")]
 
 
-def test_a_rows_own_unit_counts():
-    assert rows("tag,k,theta [min],tau1,time_unit\nA,1,2,8,s\n")[0]["time_unit"] == "s"
+def test_a_rows_own_unit_may_not_differ_from_the_heading():
+    both = "tag,k,theta [min],tau1,time_unit\nA,1,2,8,min\nB,1,2,8,s\n"
+    agreed, torn = tune_many(rows(both))
+    assert not agreed.refusal
+    assert "time_unit must be s or min, found 's (heading: min)'" in torn.refusal
 
 
 def test_rows_have_their_number_in_the_file_and_empty_ones_are_left_out():
