@@ -62,6 +62,15 @@ def test_numbers_are_typed_in_one_kind_of_field(path):
     assert not {"number_input", "NumberColumn"} & attributes
 
 
+@pytest.mark.parametrize("path", PAGES, ids=name)
+def test_a_download_starts_no_run(path):
+    """Streamlit answers a click on a download that is made when asked for; a run that begins then may lose the answer."""
+    calls = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
+    for call in calls:
+        if isinstance(call.func, ast.Attribute) and call.func.attr == "download_button":
+            assert [each.value.value for each in call.keywords if each.arg == "on_click"] == ["ignore"]
+
+
 def test_no_number_field_of_the_browser_either():
     assert not [path for path in (ROOT / "pages").rglob("*.js") if 'type="number"' in path.read_text()]
 

@@ -86,6 +86,7 @@ def test_table_and_polynomials_edit_the_same_plant(server, open_page):
     gain = page.get_by_label("Gain k", exact=True)
     gain.fill("3")
     gain.press("Enter")
+    expect(page.locator(".st-key-line .katex").first).to_contain_text("{3}")  # then the grid stays what it is
     idle(page)
     page.locator(".dvn-scroller").click(position={"x": 240, "y": 50})  # tau of row 1
     page.keyboard.press("Enter")  # opens the editor of the grid

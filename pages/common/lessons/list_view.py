@@ -65,7 +65,9 @@ def _from_file() -> None:
             "is claimed and what is printed. Download one, change it, open it here. All fields are told in "
             "*docs/lessons.md*."
         )
-        st.download_button("Download one to begin with", EXAMPLE.read_bytes(), EXAMPLE.name, "application/toml")
+        st.download_button(
+            "Download one to begin with", EXAMPLE.read_bytes(), EXAMPLE.name, "application/toml", on_click="ignore"
+        )
         upload = st.file_uploader("Open a lesson", type="toml", key="lesson_file", max_upload_size=1)
         if upload is None:
             return

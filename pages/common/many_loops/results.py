@@ -78,8 +78,8 @@ def browse(work: Work) -> None:
         wanted = st.text_input("Tag contains", key="loops_tag", max_chars=40, width=180)
         if work.job.files:
             table, html = work.job.files
-            st.download_button("Results", table, "results.csv", "text/csv")
-            st.download_button("Report", html, "report.html", "text/html")
+            st.download_button("Results", table, "results.csv", "text/csv", on_click="ignore")
+            st.download_button("Report", html, "report.html", "text/html", on_click="ignore")
     found = [
         (line, result)
         for line, result in pairs

@@ -43,7 +43,9 @@ def choose() -> Work | None:
         st.rerun()
     with st.container(horizontal=True, gap="small"):
         st.button("Try an example", key="loops_example", on_click=_take_example)
-        st.download_button("Template", template(), "loops.csv", "text/csv", help="Headings, units and five loops")
+        st.download_button(
+            "Template", template(), "loops.csv", "text/csv", help="Headings, units and five loops", on_click="ignore"
+        )
     refused = state.lasting(REFUSED, lambda: None)
     if refused:
         name, why = refused

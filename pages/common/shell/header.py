@@ -133,7 +133,9 @@ def _take_along(place: str) -> None:
     copyable(state.address(), "address_text")
     offer()
     content = partial(project.dump, state.loops())  # made when asked for: nothing is stored that runs replace
-    st.download_button(words("Save project"), content, "simc-project.json", "application/json", width="stretch")
+    st.download_button(
+        words("Save project"), content, "simc-project.json", "application/json", width="stretch", on_click="ignore"
+    )
     upload = st.file_uploader(words("Open project"), type="json", key="project_file", max_upload_size=1)
     if upload is not None:
         _open(upload, place)

@@ -27,7 +27,9 @@ def code(design: Design, present: Study) -> None:
         controller = typed_into(design.box, controller, design.sheet, design.home.rounding == "safe").effective
     text = written(design, controller, present.controller)
     language = LANGUAGES[design.home.language]
-    st.download_button(f"Download {language.file}", text, language.file, "text/plain", key="code_file")
+    st.download_button(
+        f"Download {language.file}", text, language.file, "text/plain", key="code_file", on_click="ignore"
+    )
     if not language.compiled:
         st.warning(f"Not compiled: no tool for {language.title} was at hand. Check it in yours before use.")
     st.caption(_what_it_knows(design))

@@ -27,7 +27,9 @@ def report_view(design: Design, present: Study) -> None:
     name = "".join(c if c.isalnum() else "_" for c in design.sheet.tag) or "loop"
     with st.container(horizontal=True, gap="small"):
         for label, ending, kind, make in FILES:
-            st.download_button(label, partial(make, found), f"{name}.{ending}", kind, key=f"report_{ending}")
+            st.download_button(
+                label, partial(make, found), f"{name}.{ending}", kind, key=f"report_{ending}", on_click="ignore"
+            )
             if make is picture:
                 as_png(picture(found), f"{name}.png", "report_png")
     st.caption("A PDF is made by the print command of the browser, from the HTML file.")

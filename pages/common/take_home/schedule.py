@@ -134,14 +134,19 @@ def _files(made: GainSchedule, design: Design) -> None:
         ),
     )
     right.download_button(
-        "Table as CSV", schedule_csv(table, design.sheet), "schedule.csv", "text/csv", key="schedule_csv"
+        "Table as CSV",
+        schedule_csv(table, design.sheet),
+        "schedule.csv",
+        "text/csv",
+        key="schedule_csv",
+        on_click="ignore",
     )
     if chosen is None:
         return
     text = schedule_code(design)
     language = LANGUAGES[chosen]
     name = f"schedule_{language.file}"
-    st.download_button(f"Download {name}", text, name, "text/plain", key="schedule_file")
+    st.download_button(f"Download {name}", text, name, "text/plain", key="schedule_file", on_click="ignore")
     if not language.compiled:
         st.warning(f"Not compiled: no tool for {language.title} was at hand. Check it in yours before use.")
     st.code(text, language=language.colours, height=360)
