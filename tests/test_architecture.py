@@ -64,7 +64,7 @@ def test_numbers_are_typed_in_one_kind_of_field(path):
 
 @pytest.mark.parametrize("path", PAGES, ids=name)
 def test_a_download_starts_no_run(path):
-    """Streamlit answers a click on a download that is made when asked for; a run that begins then may lose the answer."""
+    """A download that is made when asked for waits for an answer, which a run that begins then might lose."""
     calls = [node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Call)]
     for call in calls:
         if isinstance(call.func, ast.Attribute) and call.func.attr == "download_button":

@@ -37,6 +37,7 @@ def test_from_play_to_the_numbers_and_again_from_a_link_after_a_reload(server, o
     cells = page.locator(".live [data-figure]:visible")
     expect(cells).to_have_count(2)
     expect(cells.first).to_contain_text("1.69")
+    page.wait_for_function("() => /true/.test(localStorage.getItem('simc-lessons'))")  # the answer was seen
     page.goto(f"{server}/lessons")
     idle(page)
     expect(page.locator(".st-key-cards_subject_3")).to_contain_text("✓ predicted")  # kept by the browser
