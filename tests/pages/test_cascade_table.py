@@ -121,3 +121,11 @@ def test_a_table_is_left_out_where_its_work_is_not_worth_it(monkeypatch):
     monkeypatch.setattr(cascade_rows, "thread_time", lambda: float(next(seconds)))
     assert cascade_table.table(subject, grid, "inner", nothing) == b""
     assert next(seconds) == 3  # begun, and asked before each of two looks
+
+
+@pytest.mark.parametrize("many", [Plant(1, 1, (2.0,) * 31), Plant(1, 1, lag_pairs=((1.0, 0.5),) * 16)])
+def test_a_table_of_many_lags_or_pairs_is_not_begun(monkeypatch, many):
+    """62 and 64 poles in both blocks; one may have 40."""
+    monkeypatch.setattr(cascade_rows, "_state", lambda *_: pytest.fail("it was begun"))
+    with pytest.raises(cascade_rows.TooSlow):
+        cascade_rows.sections(Cascade(primary=many, secondary=many), "inner", 1.0, 2.0, None, nothing)

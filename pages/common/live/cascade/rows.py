@@ -19,6 +19,7 @@ from simc_core.cascade.design import CascadeDesign
 from simc_core.errors import SimcError
 from simc_core.loops.nested import CascadeLoop
 from simc_core.plants.models import Model
+from simc_core.plants.plant import Plant
 from simc_core.simulation import Scenario, simulate
 from simc_core.simulation.simulate_nested import unit_steps
 from simc_core.studies.tau_table import Rows, first_rows, kinks, refined
@@ -93,7 +94,7 @@ def sections(
 
     Raises TooSlow.
     """
-    if sum(len(each) for block in (held.primary, held.secondary) for each in (block.lags, block.leads)) > MOST_ROOTS:
+    if sum(map(_roots, (held.primary, held.secondary))) > MOST_ROOTS:
         raise TooSlow
     pause = Work(pause, thread_time()).within
     seen: list[bool] = []
@@ -113,6 +114,11 @@ def sections(
         else:
             unsound.append((a, b))
     return found, unsound, all(seen)
+
+
+def _roots(block: Plant) -> int:
+    """How many poles and zeros, those at 0 left out."""
+    return len(block.lags) + len(block.leads) + 2 * (len(block.lag_pairs) + len(block.lead_pairs))
 
 
 def course(loop: CascadeLoop, grid: Grid) -> np.ndarray:
