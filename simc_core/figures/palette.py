@@ -61,6 +61,10 @@ OUTPUT, INPUT = said("y  [{unit}]", unit=UNIT_OF_Y), said("u  [{unit}]", unit=UN
 
 TICKS = 12  # px, of the numbers on all axes
 PLOTLY_POWER = 1.25  # plotly draws powers of ten so much larger than it is told
+# px of room around the axes, enough for usual numbers and for one line of a legend. Where it is not, plotly makes more and
+# draws the figure a second time.
+ROOM = {"l": 68, "r": 8, "t": 16, "b": 61}
+LEGEND = 37
 
 
 def css_variables(selector: str) -> str:
@@ -156,6 +160,12 @@ def short_log_axis(title: str, low: float, high: float) -> dict[str, Any]:
     return axis(title, type="log", range=span, tickvals=shown, ticktext=[Numeral(f"{tick:g}") for tick in shown])
 
 
+def _has_legend(traces: Sequence[Trace]) -> bool:
+    """Whether plotly shows a legend: for one trace only when that is asked for."""
+    named = [trace.get("showlegend") for trace in traces if trace.get("showlegend") is not False]
+    return len(named) > 1 or True in named
+
+
 def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None = None, **layout: object) -> Figure:
     """The figure dict. height in px, None to fill what the page gives."""
     return {
@@ -165,7 +175,7 @@ def figure(traces: Sequence[Trace], xaxis: dict, yaxis: dict, height: int | None
             "yaxis": yaxis,
             "paper_bgcolor": "rgba(0,0,0,0)",
             "plot_bgcolor": "rgba(0,0,0,0)",
-            "margin": {"l": 8, "r": 8, "t": 8, "b": 8},
+            "margin": ROOM | ({"t": LEGEND} if _has_legend(traces) else {}),
             "hovermode": "x unified",
             "legend": {
                 "orientation": "h",

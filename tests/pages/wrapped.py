@@ -10,6 +10,7 @@ from streamlit.testing.v1 import AppTest
 
 from pages.common.session import state
 from pages.common.words import catalogues
+from simc_core.published.sources import SOURCES
 from simc_core.wording import Text
 
 BRACKETS = "xx"
@@ -33,7 +34,30 @@ MARKUP = re.compile(
 INNER = re.compile("⟦[^⟦⟧]*⟧")
 WORD = re.compile(r"[^\W\d_]{3,}")
 # No words of English: symbols, abbreviations of the field, names of formats.
-SYMBOLS = {"PID", "SIMC", "IAE", "exp", "cos", "sin", "min", "max", "arg", "lim", "rad", "QR", "CSV", "JSON", "SVG"}
+SYMBOLS = {
+    "PID",
+    "SIMC",
+    "IAE",
+    "exp",
+    "cos",
+    "sin",
+    "min",
+    "max",
+    "arg",
+    "lim",
+    "rad",
+    "PSB",
+    "QR",
+    "CSV",
+    "JSON",
+    "SVG",
+}
+# Of papers: authors, title, place. Those that have words of ours are sentences of the catalogue.
+REFERENCES = [
+    part for full in SOURCES.values() if not isinstance(full, Text) for part in (full, full.split(" https:")[0])
+]
+ADDRESS = re.compile(r"https\\?://[^\s\"\])]+")
+NAME_OF_LOOP = re.compile(r"Lesson \w+")  # of a lesson, which links hold
 SOURCE = re.compile(r"\[[A-Z]{2,4}\d{2}[^\]]*\]")
 
 
@@ -66,15 +90,19 @@ def left_in_english(app: AppTest) -> list[str]:
     """What the page shows outside brackets, but for symbols, numbers, foreign text, formulas, names of languages."""
     found = []
     for place, text in visible(app):
-        bare = "" if text in FORMULAS or text in catalogues.OFFERED.values() else outside(text)
+        known = text in FORMULAS or text in catalogues.OFFERED.values() or NAME_OF_LOOP.fullmatch(text)
+        bare = "" if known else outside(text)
         if any(word not in SYMBOLS for word in WORD.findall(bare)) or re.search(r"\d\.\d", bare):
             found.append(f"{place}: {text}")
     return found
 
 
 def outside(text: str) -> str:
-    """A text without markup, and without what is in brackets."""
-    return SOURCE.sub(" ", unescape(_without_brackets(MARKUP.sub(" ", _without_brackets(text)))))
+    """A text without markup, without references, and without what is in brackets."""
+    for reference in REFERENCES:
+        text = text.replace(reference, " ")
+    bare = ADDRESS.sub(" ", MARKUP.sub(" ", _without_brackets(text)))
+    return SOURCE.sub(" ", unescape(_without_brackets(bare)))
 
 
 def _without_brackets(text: str) -> str:

@@ -8,8 +8,9 @@ from pages.common.lessons.lesson import MOST_NUMBERS, Claim, Lesson, Printed
 from pages.common.lessons.opened import Cases
 from pages.common.lessons.texts import shown
 from pages.common.parts.foreign_text import exact, told
+from pages.common.words import number, numeral, translated, words
 from simc_core.errors import SimcError
-from simc_core.notation import number
+from simc_core.wording import counted
 
 
 def answer(lesson: Lesson, letters: str) -> None:
@@ -19,7 +20,7 @@ def answer(lesson: Lesson, letters: str) -> None:
     st.success(f"**{letters[right - 1]}. {shown(lesson, lesson.choices[right - 1])}**")
     chosen = progress.prediction(lesson)
     if chosen and chosen != right:
-        st.caption(f"Predicted: {letters[chosen - 1]}. {shown(lesson, lesson.choices[chosen - 1])}")
+        st.caption(predicted(lesson, chosen, letters))
     st.markdown(shown(lesson, lesson.answer))
     if lesson.claims:
         cases = Cases(lesson)
@@ -28,17 +29,26 @@ def answer(lesson: Lesson, letters: str) -> None:
         )
 
 
+def predicted(lesson: Lesson, chosen: int, letters: str) -> str:
+    """The choice that was made."""
+    return words(
+        "Predicted: {letter}. {choice}", letter=letters[chosen - 1], choice=shown(lesson, lesson.choices[chosen - 1])
+    )
+
+
 def _doubt(lesson: Lesson, claim: Claim, cases: Cases) -> str:
     """What does not hold of a claim of a file; those of the program are tested."""
     if lesson.own:
         return ""
     found = {check: checked(check, cases) for check in claim.checks}
     wrong = [
-        f"{exact(check)} {told(outcome.fault) if outcome.fault else f'is {number(outcome.left)}'}"
+        f"{exact(check)} {told(outcome.fault)}"
+        if outcome.fault
+        else words("{check} is {found}", check=exact(check), found=number(outcome.left))
         for check, outcome in found.items()
         if not outcome.met
     ]
-    return f" **Does not hold here:** {'; '.join(wrong)}" if wrong else ""
+    return f" {words('**Does not hold here:** {wrong}', wrong='; '.join(wrong))}" if wrong else ""
 
 
 def numbers(lesson: Lesson) -> None:
@@ -46,7 +56,7 @@ def numbers(lesson: Lesson) -> None:
     if lesson.printed:
         _printed(lesson)
     if lesson.misprint:
-        st.caption(f"Misprint: {shown(lesson, lesson.misprint)}")
+        st.caption(words("Misprint: {misprint}", misprint=shown(lesson, lesson.misprint)))
 
 
 def _printed(lesson: Lesson) -> None:
@@ -55,7 +65,7 @@ def _printed(lesson: Lesson) -> None:
     few, more = lesson.printed[:MOST_NUMBERS], lesson.printed[MOST_NUMBERS:]
     _table(lesson, few, cases)
     if more:
-        with st.expander(f"{len(more)} more printed number{'s' * (len(more) > 1)}"):
+        with st.expander(translated(counted("{n} more printed number", "{n} more printed numbers", len(more)))):
             _table(lesson, more, cases)
 
 
@@ -63,10 +73,10 @@ def _table(lesson: Lesson, rows: tuple[Printed, ...], cases: Cases) -> None:
     with st.container(key=f"printed_{rows[0].name}"):
         st.table(
             {
-                "quantity": [shown(lesson, row.name) for row in rows],
-                "printed": [row.value.replace("-", "−") for row in rows],
-                "here": [_ours(row, cases) for row in rows],
-                "where": [shown(lesson, row.where) for row in rows],
+                words("quantity"): [shown(lesson, row.name) for row in rows],
+                words("printed"): [numeral(row.value).replace("-", "−") for row in rows],
+                words("here"): [_ours(row, cases) for row in rows],
+                words("where", context="in a source"): [shown(lesson, row.where) for row in rows],
             }
         )
     for row in rows:

@@ -17,6 +17,7 @@ from pages.common.lessons.lesson import BASE
 from pages.common.lessons.opened import Cases
 from pages.common.lessons.quantities import QUANTITIES
 from simc_core.errors import InvalidParameter, SimcError
+from simc_core.wording import said
 
 TOKEN = re.compile(r"\s*(?:(\d+(?:\.\d+)?(?:e[-+]?\d{1,2})?|inf\b)|([A-Za-z]\w*)(?:\((\w+)\))?|([-+*/<>=~]))")
 ROUNDING = 1e-9  # relative: a number that is printed as 1.375 may be met from either side
@@ -52,7 +53,13 @@ def value_of(expression: str, cases: Cases) -> float:
     tokens = _tokens(expression)
     value, rest = _sum(tokens, cases)
     if rest:
-        raise InvalidParameter(f"after {expression[: len(expression) // 2]} nothing more is expected, found {rest[0]}")
+        raise InvalidParameter(
+            said(
+                "after {part} nothing more is expected, found {found}",
+                part=expression[: len(expression) // 2],
+                found=rest[0],
+            )
+        )
     return value
 
 
@@ -66,16 +73,20 @@ def half_digit(number: str) -> float:
 def _parsed(check: str, cases: Cases) -> tuple[float, str, float, float]:
     left, rest = _sum(_tokens(check), cases)
     if not rest or rest[0] not in ("<", ">", "="):
-        raise InvalidParameter(f"a check has one of < > = between two sides, found {check[:60]}")
+        raise InvalidParameter(said("a check has one of < > = between two sides, found {found}", found=check[:60]))
     relation, after = rest[0], rest[1:]
     right, rest = _sum(after, cases)
     if rest:
         if relation != "=" or rest[0] != "~" or len(rest) != 2 or not _is_number(rest[1]):
-            raise InvalidParameter(f"a check ends, or goes on with ~ and a tolerance after =, found {rest[0]}")
+            raise InvalidParameter(
+                said("a check ends, or goes on with ~ and a tolerance after =, found {found}", found=rest[0])
+            )
         return left, relation, right, float(rest[1])
     alone = after[0] if len(after) == 1 else after[1] if len(after) == 2 and after[0] == "-" else ""
     if relation == "=" and not _is_number(alone):
-        raise InvalidParameter(f"= between two that are computed needs ~ and a tolerance: {check[:60]}")
+        raise InvalidParameter(
+            said("= between two that are computed needs ~ and a tolerance: {check}", check=check[:60])
+        )
     return left, relation, right, half_digit(alone) if relation == "=" and alone != "inf" else 0.0
 
 
@@ -85,7 +96,7 @@ def _tokens(text: str) -> list[str]:
     while at < len(text):
         match = TOKEN.match(text, at)
         if match is None:
-            raise InvalidParameter(f"not understood from here on: {text[at : at + 20]}")
+            raise InvalidParameter(said("not understood from here on: {text}", text=text[at : at + 20]))
         number, name, case, sign = match.groups()
         found.append(number or sign or (f"{name}({case})" if case else name))
         at = match.end()
@@ -111,21 +122,21 @@ def _product(tokens: list[str], cases: Cases) -> tuple[float, list[str]]:
     while tokens and tokens[0] in "*/":
         more, rest = _factor(tokens[1:], cases)
         if tokens[0] == "/" and more == 0:
-            raise InvalidParameter("division by zero")
+            raise InvalidParameter(said("division by zero"))
         value, tokens = value * more if tokens[0] == "*" else value / more, rest
     return value, tokens
 
 
 def _factor(tokens: list[str], cases: Cases) -> tuple[float, list[str]]:
     if not tokens:
-        raise InvalidParameter("a number or a name is missing at the end")
+        raise InvalidParameter(said("a number or a name is missing at the end"))
     first, rest = tokens[0], tokens[1:]
     if _is_number(first):
         return float(first), rest
     name, _, case = first.rstrip(")").partition("(")
     if name not in QUANTITIES:
-        raise InvalidParameter(f"there is no quantity {name[:30]}")
+        raise InvalidParameter(said("there is no quantity {name}", name=name[:30]))
     try:
         return QUANTITIES[name].of(cases[case or BASE]), rest
     except ArithmeticError:
-        raise InvalidParameter(f"{name} cannot be computed here") from None
+        raise InvalidParameter(said("{name} cannot be computed here", name=name)) from None

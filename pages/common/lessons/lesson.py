@@ -10,19 +10,20 @@ from dataclasses import dataclass, field
 
 from pages.common.parts.quantities import QUANTITIES
 from simc_core.errors import InvalidParameter
+from simc_core.wording import said
 
 SUBJECTS = {  # in the order in which they are taught
-    "reduction": "From many lags to a model",
-    "speed": "Speed against robustness",
-    "integral": "Slow, fast and integrating plants",
-    "derivative": "Derivative action",
-    "delay": "Dead time",
-    "unstable": "Unstable plants",
-    "response": "What a good response is",
-    "rules": "Tuning rules compared",
-    "identification": "From a record to a model",
-    "built": "The loop as it is built",
-    "cascade": "Cascades",
+    "reduction": said("From many lags to a model"),
+    "speed": said("Speed against robustness"),
+    "integral": said("Slow, fast and integrating plants"),
+    "derivative": said("Derivative action"),
+    "delay": said("Dead time"),
+    "unstable": said("Unstable plants"),
+    "response": said("What a good response is"),
+    "rules": said("Tuning rules compared"),
+    "identification": said("From a record to a model"),
+    "built": said("The loop as it is built"),
+    "cascade": said("Cascades"),
 }
 SHOWS = ("tau_c", "settings", "plant", "cascade", "single", "half_rule", "bode", "built", "trend", "rules", "relay")
 MOVING = ("tau_c", "settings", "plant", "cascade")  # with something to move, and numbers
@@ -100,7 +101,9 @@ class Printed:
         try:
             float(self.value)
         except ValueError:
-            raise InvalidParameter(f"value must be a number in quotes, found {self.value[:20]}") from None
+            raise InvalidParameter(
+                said("value must be a number in quotes, found {found}", found=self.value[:20])
+            ) from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +137,7 @@ class Lesson:
 
     def __post_init__(self) -> None:
         if not ID.fullmatch(self.id):
-            raise InvalidParameter(f"id must be 1 to 12 letters and digits, found {self.id[:20]}")
+            raise InvalidParameter(said("id must be 1 to 12 letters and digits, found {found}", found=self.id[:20]))
         _text("title", self.title, "title")
         _one_of("subject", self.subject, SUBJECTS)
         for name in ("question", "answer"):
@@ -147,22 +150,36 @@ class Lesson:
         for each in self.choices:
             _text("choices", each)
         if len(set(self.choices)) < len(self.choices):
-            raise InvalidParameter("choices must differ from one another")
+            raise InvalidParameter(said("choices must differ from one another"))
         if not 1 <= self.right <= len(self.choices):
-            raise InvalidParameter(f"right must be one of 1 to {len(self.choices)}, found {self.right}")
+            raise InvalidParameter(
+                said("right must be one of 1 to {n}, found {found}", n=len(self.choices), found=self.right)
+            )
         for name in ("moves", "claims", "printed"):
             _few(name, getattr(self, name), least=int(name == "moves"))
         _few("cases", tuple(self.cases))
         for case in self.cases:
             if not CASE.fullmatch(case) or case == BASE:
-                raise InvalidParameter(f"a case is named by 1 to 16 letters and digits, not {BASE}, found {case[:20]}")
+                raise InvalidParameter(
+                    said(
+                        "a case is named by 1 to 16 letters and digits, not {base}, found {found}",
+                        base=BASE,
+                        found=case[:20],
+                    )
+                )
             label = self.label(case)
             if not LABEL.fullmatch(label):
                 raise InvalidParameter(
-                    f"cases.{case}: name must be 1 to 16 letters, digits and = . , found {label[:20]}"
+                    said(
+                        "cases.{case}: name must be 1 to 16 letters, digits and = . , found {found}",
+                        case=case,
+                        found=label[:20],
+                    )
                 )
         if len(self.numbers) > MOST_NUMBERS:
-            raise InvalidParameter(f"numbers must be at most {MOST_NUMBERS}, found {len(self.numbers)}")
+            raise InvalidParameter(
+                said("numbers must be at most {most}, found {found}", most=MOST_NUMBERS, found=len(self.numbers))
+            )
         for name in self.numbers:
             _one_of("numbers", name, QUANTITIES)
         for move in (self.play, *self.moves):
@@ -193,14 +210,36 @@ class Lesson:
 
 def _text(field_name: str, value: str, kind: str = "text") -> None:
     if not value.strip() or len(value) > LONGEST[kind]:
-        raise InvalidParameter(f"{field_name} must have 1 to {LONGEST[kind]} characters, found {len(value)}")
+        raise InvalidParameter(
+            said(
+                "{name} must have 1 to {most} characters, found {found}",
+                name=field_name,
+                most=LONGEST[kind],
+                found=len(value),
+            )
+        )
 
 
 def _few(name: str, items: tuple, least: int = 0) -> None:
     if not least <= len(items) <= MOST[name]:
-        raise InvalidParameter(f"{name} must be {least} to {MOST[name]}, found {len(items)}")
+        raise InvalidParameter(
+            said(
+                "{name} must be {least} to {most}, found {found}",
+                name=name,
+                least=least,
+                most=MOST[name],
+                found=len(items),
+            )
+        )
 
 
 def _one_of(name: str, value: str, allowed) -> None:
     if value not in allowed:
-        raise InvalidParameter(f"{name} must be one of {', '.join(allowed)}, found {value[:20]}")
+        raise InvalidParameter(
+            said(
+                "{name} must be one of {allowed}, found {found}",
+                name=name,
+                allowed=", ".join(allowed),
+                found=value[:20],
+            )
+        )

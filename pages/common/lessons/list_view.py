@@ -12,9 +12,11 @@ from pages.common.parts.foreign_text import exact, told
 from pages.common.parts.sources import cited, linked
 from pages.common.session import state
 from pages.common.shell.lecture import lecture
+from pages.common.words import translated, words
 from simc_core.errors import SimcError
+from simc_core.wording import said
 
-ORDERS = {"subject": "By subject", "paper": "By paper"}
+ORDERS = {"subject": said("By subject"), "paper": said("By paper")}
 EXAMPLE = DATA / "V1.toml"
 
 
@@ -22,14 +24,14 @@ def list_view() -> None:
     """The list."""
     lecture("lessons", instrument=False)
     if asked := state.place().get("lesson"):
-        st.warning(f"There is no lesson {exact(asked[:20])} here; these are there.")
+        st.warning(words("There is no lesson {asked} here; these are there.", asked=exact(asked[:20])))
     with st.container(key="lesson_title"):
-        st.markdown("# Lessons")
-    st.markdown("Play, predict, move, then see. Each takes five to ten minutes, alone or in a lecture hall.")
+        st.markdown(f"# {words('Lessons')}")
+    st.markdown(words("Play, predict, move, then see. Each takes five to ten minutes, alone or in a lecture hall."))
     order = st.segmented_control(
-        "Order",
+        words("Order", context="of a list"),
         list(ORDERS),
-        format_func=ORDERS.get,
+        format_func=lambda order: translated(ORDERS[order]),
         default="subject",
         required=True,
         key="lessons_order",
@@ -40,10 +42,10 @@ def list_view() -> None:
     for i, (title, found) in enumerate(groups.items()):
         if found:
             with st.container(key=f"lessons_{order}_{i}"):
-                st.markdown(f"## {title}" if order == "subject" else f"**{linked(title)}**")
+                st.markdown(f"## {translated(title)}" if order == "subject" else f"**{linked(translated(title))}**")
             _cards(found, f"{order}_{i}")
     if progress.known():
-        st.button("Forget my predictions", key="progress_forget", on_click=progress.forget)
+        st.button(words("Forget my predictions"), key="progress_forget", on_click=progress.forget)
     _from_file()
 
 
@@ -51,7 +53,9 @@ def _cards(found: list[Lesson], name: str) -> None:
     with st.container(key=f"cards_{name}"):
         for lesson in found:
             with st.container(border=True, height="stretch", vertical_alignment="distribute", gap="xsmall"):
-                source = f"{cited(lesson.source)} {shown(lesson, lesson.where)}" if lesson.source else NO_PAPER
+                source = (
+                    f"{cited(lesson.source)} {shown(lesson, lesson.where)}" if lesson.source else translated(NO_PAPER)
+                )
                 st.markdown(" · ".join(filter(None, [source, progress.word(lesson)])))
                 title = named(lesson, lesson.title)
                 st.button(title, key=f"open_{lesson.id}", width="stretch", on_click=in_use.open_at, args=(lesson, 1))
@@ -59,23 +63,30 @@ def _cards(found: list[Lesson], name: str) -> None:
 
 def _from_file() -> None:
     """A lesson that somebody wrote."""
-    with st.expander("A lesson of your own"):
+    with st.expander(words("A lesson of your own")):
         st.markdown(
-            "A lesson is one text file: the question, the choices, the design as the fields of a link, the moves, what "
-            "is claimed and what is printed. Download one, change it, open it here. All fields are told in "
-            "*docs/lessons.md*."
+            words(
+                "A lesson is one text file: the question, the choices, the design as the fields of a link, the moves, "
+                "what "
+                "is claimed and what is printed. Download one, change it, open it here. All fields are told in "
+                "*docs/lessons.md*."
+            )
         )
         st.download_button(
-            "Download one to begin with", EXAMPLE.read_bytes(), EXAMPLE.name, "application/toml", on_click="ignore"
+            words("Download one to begin with"),
+            EXAMPLE.read_bytes(),
+            EXAMPLE.name,
+            "application/toml",
+            on_click="ignore",
         )
-        upload = st.file_uploader("Open a lesson", type="toml", key="lesson_file", max_upload_size=1)
+        upload = st.file_uploader(words("Open a lesson"), type="toml", key="lesson_file", max_upload_size=1)
         if upload is None:
             return
         try:
             lesson = read_lesson(upload.getvalue())
             check_designs(lesson)
         except SimcError as error:
-            st.error(f"{exact(upload.name)} was not opened: {told(str(error))}")
+            st.error(words("{name} was not opened: {error}", name=exact(upload.name), error=told(str(error))))
             return
         if state.lasting("lesson_opened", lambda: None) != upload.file_id:
             state.make_last("lesson_file", lesson)

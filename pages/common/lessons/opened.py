@@ -30,6 +30,7 @@ from simc_core.reduction.half_rule import half_rule
 from simc_core.reduction.records import Reduction
 from simc_core.studies.comparison import Row
 from simc_core.studies.with_actuator import AsBuilt, as_built
+from simc_core.wording import said
 
 KEPT = 32  # designs, of all sessions
 
@@ -43,11 +44,13 @@ def fields_of(lesson: Lesson, case: str) -> dict[str, str]:
 def design_of(lesson: Lesson, case: str) -> Design:
     """The design of a case. Raises InvalidParameter, which names the field that a link would ignore."""
     if case != BASE and case not in lesson.cases:
-        raise InvalidParameter(f"there is no case {case[:20]}")
+        raise InvalidParameter(said("there is no case {case}", case=case[:20]))
     design, ignored = links.decode(fields_of(lesson, case))
     if ignored:
         where = "design" if case == BASE else f"cases.{case}"
-        raise InvalidParameter(f"{where}: {ignored[0].name[:30]}: {ignored[0].why}")
+        raise InvalidParameter(
+            said("{place}: {name}: {why}", place=where, name=ignored[0].name[:30], why=ignored[0].why)
+        )
     return design
 
 
@@ -72,7 +75,7 @@ class Opened:
     def stable(self) -> Study:
         """The same, where the loop is stable."""
         if not self.study.stable:
-            raise NotStable("the loop is not stable")
+            raise NotStable(said("the loop is not stable"))
         return self.study
 
     @cached_property
@@ -133,7 +136,13 @@ class Opened:
         """The structure that is chosen, else the best."""
         structure = self.design.record.structure
         if structure and structure not in self.fits:
-            raise InvalidParameter(f"structure {structure} is none of those fitted here, {', '.join(self.fits)}")
+            raise InvalidParameter(
+                said(
+                    "structure {structure} is none of those fitted here, {fitted}",
+                    structure=structure,
+                    fitted=", ".join(self.fits),
+                )
+            )
         return self.fits[structure] if structure else next(iter(self.fits.values()))
 
     @cached_property
@@ -143,11 +152,11 @@ class Opened:
         question = question_of(self.design)
         key, _, kind = asked.rule.partition("-")
         if not key:
-            raise InvalidParameter("compared_rule must name a rule, such as simc-PI")
+            raise InvalidParameter(said("compared_rule must name a rule, such as simc-PI"))
         rows = comparison(question.plant, (kind,), question.Ms, question.tau_F, (key,), question.criterion)
         found = next(each for each in rows if key_of(each) == asked.rule)
         if not math.isfinite(found.Mst):
-            raise NotStable(found.refusal or "the loop is not stable")
+            raise NotStable(found.refusal or said("the loop is not stable"))
         return found
 
 

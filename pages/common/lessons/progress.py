@@ -8,6 +8,7 @@ import streamlit as st
 from pages.common.lessons.lesson import Lesson
 from pages.common.lessons.shelf import lessons
 from pages.common.session import state
+from pages.common.words import words
 
 LARGEST = 20_000  # characters
 _storage = st.components.v2.component(
@@ -45,8 +46,8 @@ def word(lesson: Lesson) -> str:
         return ""
     choice, done = known()[_key(lesson)]
     if not done:
-        return "begun"
-    return "✓ predicted" if choice == lesson.right else "done"
+        return words("begun")
+    return words("✓ predicted") if choice == lesson.right else words("done")
 
 
 def _key(lesson: Lesson) -> str:

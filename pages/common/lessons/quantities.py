@@ -17,6 +17,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.optimal.imc_figures import ImcPoint, imc_point
 from simc_core.studies.built_advice import error_integral
+from simc_core.wording import said
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +33,9 @@ def _setting(name: str) -> Callable[[Opened], float]:
         controller = case.study.controller
         settings = controller.in_form(form_shown(controller, case.design.form)).settings
         if name not in settings:
-            raise InvalidParameter(f"this controller has no {name}, but {', '.join(settings)}")
+            raise InvalidParameter(
+                said("this controller has no {name}, but {names}", name=name, names=", ".join(settings))
+            )
         return settings[name]
 
     return of
@@ -42,7 +45,7 @@ def _parameter(name: str) -> Callable[[Opened], float]:
     def of(case: Opened) -> float:
         model = case.reduction.model
         if not hasattr(model, name):
-            raise InvalidParameter(f"the model has no {name}")
+            raise InvalidParameter(said("the model has no {name}", name=name))
         return float(getattr(model, name))
 
     return of
@@ -63,7 +66,7 @@ def _nested(name: str, metric: str, single: bool = False) -> Callable[[Opened], 
         if single:
             found = None if study.single is None else study.single.performance
         if found is None:
-            raise InvalidParameter(study.unsettled or study.no_single or "the cascade is not stable")
+            raise InvalidParameter(study.unsettled or study.no_single or said("the cascade is not stable"))
         return getattr(getattr(found, name), metric)
 
     return of
@@ -73,7 +76,7 @@ def _fitted(name: str, error: bool = False) -> Callable[[Opened], float]:
     def of(case: Opened) -> float:
         found = case.fit.standard_errors if error else case.fit.parameters
         if name not in found:
-            raise InvalidParameter(f"the model has no {name}, but {', '.join(found)}")
+            raise InvalidParameter(said("the model has no {name}, but {names}", name=name, names=", ".join(found)))
         return found[name]
 
     return of
@@ -82,7 +85,7 @@ def _fitted(name: str, error: bool = False) -> Callable[[Opened], float]:
 def _behind(structure: str) -> Callable[[Opened], float]:
     def of(case: Opened) -> float:
         if structure not in case.fits:
-            raise InvalidParameter(f"{structure} cannot be fitted to this record")
+            raise InvalidParameter(said("{structure} cannot be fitted to this record", structure=structure))
         return case.fits[structure].criterion
 
     return of
@@ -102,14 +105,14 @@ def _imc(case: Opened) -> ImcPoint:
 def _swing(case: Opened) -> float:
     turning = [pole for pole in dominant_poles(case.stable.loop) if pole.s.imag]
     if not turning:
-        raise InvalidParameter("no pole of this loop swings")
+        raise InvalidParameter(said("no pole of this loop swings"))
     return 2 * math.pi / turning[0].s.imag
 
 
 def _unprotected(case: Opened) -> float:
     found = case.built.unprotected
     if found is None:
-        raise InvalidParameter("the input has no limits")
+        raise InvalidParameter(said("the input has no limits"))
     return error_integral(found.t, found.r, found.y)
 
 
@@ -121,10 +124,10 @@ def _peak_y(of: str) -> Callable[[Opened], float]:
     def peak(case: Opened) -> float:
         course = getattr(case.built, of)
         if course is None:
-            raise InvalidParameter("the input has no limits")
+            raise InvalidParameter(said("the input has no limits"))
         before = (course.t < course.t[np.argmax(course.d != 0)]) if np.any(course.d) else course.t >= 0
         if not before.any() or not course.r.max() > 0:
-            raise InvalidParameter("an overshoot needs a step of the set point upwards, and time before the load")
+            raise InvalidParameter(said("an overshoot needs a step of the set point upwards, and time before the load"))
         return 100 * (float(course.y[before].max()) / float(course.r.max()) - 1)
 
     return peak

@@ -7,6 +7,7 @@ from typing import Any
 
 from pages.common.lessons.lesson import MOST, Claim, Lesson, Move, Printed
 from simc_core.errors import InvalidParameter, SimcError
+from simc_core.wording import Text, joined, said
 
 LARGEST = 30_000  # bytes
 TABLES = {"play": Move, "moves": Move, "claims": Claim, "printed": Printed}
@@ -15,13 +16,13 @@ TABLES = {"play": Move, "moves": Move, "claims": Claim, "printed": Printed}
 def read_lesson(data: bytes, own: bool = False) -> Lesson:
     """The lesson of a file. own: of this program. Raises InvalidParameter, which names the field."""
     if len(data) > LARGEST:
-        raise InvalidParameter(f"a lesson has at most {LARGEST} bytes, found {len(data)}")
+        raise InvalidParameter(said("a lesson has at most {most} bytes, found {found}", most=LARGEST, found=len(data)))
     try:
         content = tomllib.loads(data.decode("utf-8-sig").replace("\r\n", "\n"))
     except UnicodeDecodeError:
-        raise InvalidParameter("a lesson is a text in UTF-8") from None
+        raise InvalidParameter(said("a lesson is a text in UTF-8")) from None
     except (ValueError, RecursionError) as error:  # also a number of thousands of digits
-        raise InvalidParameter(f"the file is no TOML: {str(error)[:200]}") from None
+        raise InvalidParameter(said("the file is no TOML: {error}", error=str(error)[:200])) from None
     return lesson_of(content, own)
 
 
@@ -29,7 +30,7 @@ def lesson_of(content: Mapping[str, Any], own: bool = False) -> Lesson:
     """The lesson of what the file says."""
     given = dict(content)
     if "own" in given:
-        raise InvalidParameter("own is no field of a lesson")
+        raise InvalidParameter(said("own is no field of a lesson"))
     given["design"] = _texts("design", given.get("design", {}), MOST["design"])
     given["cases"] = {
         str(name): _texts(f"cases.{name}", case, MOST["design"])
@@ -38,7 +39,7 @@ def lesson_of(content: Mapping[str, Any], own: bool = False) -> Lesson:
     for name in ("moves", "claims", "printed"):
         rows = given.get(name, [])
         if not isinstance(rows, list) or len(rows) > MOST[name]:
-            raise InvalidParameter(f"{name} must be at most {MOST[name]} tables, [[{name}]]")
+            raise InvalidParameter(said("{name} must be at most {most} tables, [[{name}]]", name=name, most=MOST[name]))
         kind = TABLES[name]
         given[name] = tuple(_record(f"{name} {i}", kind, row) for i, row in enumerate(rows, 1))
     if "play" in given:
@@ -55,26 +56,34 @@ def _made(place: str, kind: type, given: Mapping[str, Any]) -> Any:
     known = {each.name: each for each in fields(kind)}
     strange = next((name for name in given if name not in known), None)
     if strange is not None:
-        raise InvalidParameter(f"{place}{str(strange)[:30]} is no field; there are {', '.join(known)}")
+        raise InvalidParameter(
+            said("{name} is no field; there are {known}", name=f"{place}{str(strange)[:30]}", known=", ".join(known))
+        )
     try:
         return kind(**{name: _typed(name, known[name].type, value) for name, value in given.items()})
     except TypeError:
         missing = next(name for name, each in known.items() if name not in given and _needed(each))
-        raise InvalidParameter(f"{place}{missing} is missing") from None
+        raise InvalidParameter(said("{name} is missing", name=f"{place}{missing}")) from None
     except SimcError as error:
-        raise InvalidParameter(f"{place}{error}") from None
+        raise InvalidParameter(joined([place, str(error)], "")) from None
 
 
 def _needed(each) -> bool:
     return each.default is each.default_factory  # both are MISSING
 
 
-WANTED: dict[Any, tuple[Callable[[Any], bool], str]] = {
-    str: (lambda value: isinstance(value, str), "a text in quotes"),
-    int: (lambda value: isinstance(value, int) and not isinstance(value, bool), "a whole number"),
+WANTED: dict[Any, tuple[Callable[[Any], bool], Text]] = {
+    str: (
+        lambda value: isinstance(value, str),
+        said("{name} must be a text in quotes, found {found}", name="", found=""),
+    ),
+    int: (
+        lambda value: isinstance(value, int) and not isinstance(value, bool),
+        said("{name} must be a whole number, found {found}", name="", found=""),
+    ),
     tuple[str, ...]: (
         lambda value: isinstance(value, list) and all(isinstance(each, str) for each in value),
-        "a list of texts in quotes",
+        said("{name} must be a list of texts in quotes, found {found}", name="", found=""),
     ),
 }
 
@@ -82,15 +91,17 @@ WANTED: dict[Any, tuple[Callable[[Any], bool], str]] = {
 def _typed(name: str, kind: Any, value: Any) -> Any:
     if kind not in WANTED:
         return value
-    right, words = WANTED[kind]
+    right, wanted = WANTED[kind]
     if not right(value):
-        raise InvalidParameter(f"{name} must be {words}, found {_short(value)}")
+        raise InvalidParameter(wanted.put(name=name, found=_short(value)))
     return tuple(value) if isinstance(value, list) else value
 
 
 def _table(place: str, value: Any) -> dict[str, Any]:
     if not isinstance(value, dict):
-        raise InvalidParameter(f"{place} must be a table of fields, found {_short(value)}")
+        raise InvalidParameter(
+            said("{place} must be a table of fields, found {found}", place=place, found=_short(value))
+        )
     return value
 
 
@@ -98,16 +109,23 @@ def _short(value: Any) -> str:
     try:
         return str(value)[:30]
     except ValueError:  # a hexadecimal number of thousands of digits
-        return "a number"
+        return said("a number")
 
 
 def _texts(place: str, value: Any, most: int) -> dict[str, str]:
     table = _table(place, value)
     if len(table) > most:
-        raise InvalidParameter(f"{place} must have at most {most} fields, found {len(table)}")
+        raise InvalidParameter(
+            said("{place} must have at most {most} fields, found {found}", place=place, most=most, found=len(table))
+        )
     for name, text in table.items():
         if not isinstance(text, str):
             raise InvalidParameter(
-                f'{place}: {str(name)[:30]} must be a text in quotes, as in a link: "{_short(text)}"'
+                said(
+                    '{place}: {name} must be a text in quotes, as in a link: "{found}"',
+                    place=place,
+                    name=str(name)[:30],
+                    found=_short(text),
+                )
             )
     return table

@@ -6,9 +6,10 @@ from pathlib import Path
 from pages.common.lessons.lesson import SUBJECTS, Lesson
 from pages.common.lessons.read import read_lesson
 from simc_core.published.sources import SOURCES
+from simc_core.wording import joined, said
 
 DATA = Path(__file__).with_name("data")
-NO_PAPER = "Beyond the papers"
+NO_PAPER = said("Beyond the papers")
 
 
 @cache
@@ -39,4 +40,4 @@ def by_source() -> dict[str, list[Lesson]]:
 
 def by_paper() -> dict[str, list[Lesson]]:
     """The same by the full name of the paper."""
-    return {f"[{key}] {SOURCES[key]}" if key else NO_PAPER: found for key, found in by_source().items()}
+    return {joined([f"[{key}]", SOURCES[key]], " ") if key else NO_PAPER: found for key, found in by_source().items()}

@@ -3,7 +3,7 @@
 import streamlit as st
 
 from pages.common.lessons import in_use, progress
-from pages.common.lessons.answer import answer, numbers
+from pages.common.lessons.answer import answer, numbers, predicted
 from pages.common.lessons.lesson import MOVING, Lesson
 from pages.common.lessons.shelf import after
 from pages.common.lessons.stage import stage
@@ -14,9 +14,13 @@ from pages.common.parts.sources import cited
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.shell.lecture import lecture
+from pages.common.words import translated, words
+from simc_core.wording import said
 
 LETTERS = "ABCDE"
 QUESTION = 2
+PLAY, ASK = said("Play", context="step of a lesson"), said("Question", context="step of a lesson")
+ANSWER, NUMBERS = said("Answer", context="step of a lesson"), said("Numbers", context="step of a lesson")
 
 
 def lesson_view(lesson: Lesson) -> None:
@@ -61,16 +65,18 @@ def about(lesson: Lesson, design: Design) -> None:
 
 def _title(lesson: Lesson, step: int) -> None:
     with st.container(key="lesson_title", horizontal=True, vertical_alignment="center", gap="small"):
-        st.button("All lessons", key="lesson_close", icon=":material/arrow_back:", on_click=in_use.close)
+        st.button(words("All lessons"), key="lesson_close", icon=":material/arrow_back:", on_click=in_use.close)
         st.markdown(f"# {named(lesson, lesson.title)}", width="content")
         if lesson.source:
             st.markdown(f"{cited(lesson.source)} {shown(lesson, lesson.where)}", width="content")
-        st.caption(f"{_name(lesson, step)}, step {step} of {lesson.steps}", width="content")
+        st.caption(_place(lesson, step), width="content")
 
 
-def _name(lesson: Lesson, step: int) -> str:
-    named = {1: "Play", QUESTION: "Question", lesson.answer_at: "Answer", lesson.answer_at + 1: "Numbers"}
-    return named.get(step, f"Move {step - QUESTION}")
+def _place(lesson: Lesson, step: int) -> str:
+    """The step by its name, and where it stands."""
+    named = {1: PLAY, QUESTION: ASK, lesson.answer_at: ANSWER, lesson.answer_at + 1: NUMBERS}
+    name = translated(named[step]) if step in named else words("Move {i}", i=step - QUESTION)
+    return words("{name}, step {step} of {steps}", name=name, step=step, steps=lesson.steps)
 
 
 def _question(lesson: Lesson) -> None:
@@ -97,7 +103,7 @@ def _told(lesson: Lesson, step: int) -> None:
     if step > QUESTION:
         st.markdown(f"**{shown(lesson, lesson.question)}**")
         if chosen := progress.prediction(lesson):
-            st.caption(f"Predicted: {LETTERS[chosen - 1]}. {shown(lesson, lesson.choices[chosen - 1])}")
+            st.caption(predicted(lesson, chosen, LETTERS))
     with st.container(key="lesson_text"):
         st.markdown(shown(lesson, lesson.move_at(step).text))
 
@@ -106,11 +112,11 @@ def _way(lesson: Lesson, step: int) -> None:
     """Back, on, and what was moved back to where it was."""
     with st.container(key="lesson_way", horizontal=True, vertical_alignment="center", gap="small"):
         if step > 1:
-            st.button("Back", key="lesson_back", shortcut="b", on_click=in_use.open_at, args=(lesson, step - 1))
+            st.button(words("Back"), key="lesson_back", shortcut="b", on_click=in_use.open_at, args=(lesson, step - 1))
         if step < lesson.steps:
             waits = step == QUESTION and not progress.prediction(lesson)
             st.button(
-                "Go on without a prediction" if waits else "Next",
+                words("Go on without a prediction") if waits else words("Next"),
                 key="lesson_next",
                 type="secondary" if waits else "primary",
                 shortcut="n",
@@ -119,7 +125,7 @@ def _way(lesson: Lesson, step: int) -> None:
             )
         elif following := after(lesson):
             st.button(
-                f"Next lesson: {named(following, following.title)}",
+                words("Next lesson: {title}", title=named(following, following.title)),
                 key="lesson_after",
                 type="primary",
                 on_click=in_use.open_at,
@@ -127,10 +133,10 @@ def _way(lesson: Lesson, step: int) -> None:
             )
         if step != QUESTION and lesson.move_at(step).shows in MOVING:
             st.button(
-                "Put back",
+                words("Put back"),
                 key="lesson_put_back",
                 shortcut="z",
-                help="What was moved goes back to where this step began.",
+                help=words("What was moved goes back to where this step began."),
                 on_click=in_use.put_back,
                 args=(lesson, step),
             )

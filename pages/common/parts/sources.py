@@ -2,6 +2,7 @@
 
 import re
 
+from pages.common.words import translated
 from simc_core.published.sources import SOURCES
 
 KEY = r"[A-Z]{1,4}\d{2}|PSB"
@@ -29,5 +30,5 @@ def linked(text: str) -> str:
 
 
 def _link(found: re.Match) -> str:
-    full = SOURCES.get(found[0], "").replace('"', "'")
+    full = translated(SOURCES.get(found[0], "")).replace('"', "'")
     return f'[{found[0]}]({address(found[0])} "{full}")' if full else found[0]

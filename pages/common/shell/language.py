@@ -1,4 +1,4 @@
-"""The choice of the language, in the sidebar, where there is more than one; and the page tells the browser which it is."""
+"""The choice of the language, in the sidebar, where there are several; and what the browser is told of it."""
 
 from pathlib import Path
 

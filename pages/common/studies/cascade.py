@@ -22,6 +22,7 @@ from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import NestedResponse, Scenario, simulate
 from simc_core.studies.remedies import SLOWER
+from simc_core.wording import said
 
 USUAL_MS = 2.0  # what direct synthesis aims at where nothing is asked for
 KEPT = 16  # cascades of all sessions; direct synthesis searches 0.05 to 0.2 s, and every click on the page asks again
@@ -147,12 +148,12 @@ def sounder(study: CascadeStudy) -> dict[str, float]:
 def time_responses(study: CascadeStudy) -> tuple[tuple[str, NestedResponse], ...]:
     """Steps of r, then of d1, then of d2; of the single loop at the same instants, where it is stable."""
     first = simulate(study.loop, Scenario())
-    found = [("cascade", first)]
+    found = [(said("cascade"), first)]
     if study.single is not None and study.single.performance is not None:
         d1, d2 = starts(first)
         t_end = float(first.t[-1])
         same = Scenario(disturbance_time=d1, disturbance2_time=d2, t_end=t_end)
-        found.append(("single loop", simulate(study.single.loop, same)))
+        found.append((said("single loop"), simulate(study.single.loop, same)))
     return tuple(found)
 
 

@@ -1,7 +1,11 @@
-"""What there is to translate: the templates of said, counted and words in Python, of said in JavaScript."""
+"""What there is to translate: the templates of said, counted and words in Python, of said in JavaScript.
+
+And the texts of the lessons of the program, which are files of TOML.
+"""
 
 import ast
 import re
+import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +18,9 @@ MODULES = ("simc_core.wording", "pages.common.words")
 TEXT = r'"(?:[^"\\\n]|\\.)*"'
 IN_SCRIPT = re.compile(rf"(?<![.\w])said\(\s*((?:{TEXT})(?:\s*\+\s*{TEXT})*\s*[,)])?")
 IMPORTED = re.compile(r'^import \{[^}]*\bsaid\b[^}]*\} from "[./\w]*/words\.js";$', re.MULTILINE)
+OF_A_LESSON = ("title", "where", "question", "choices", "answer", "misprint")  # what a reader sees of its fields
+OF_ITS_PARTS = ("text", "says", "name", "where", "differs")  # of play, moves, claims, printed and cases
+NUMBER = re.compile(r"[-\N{MINUS SIGN}]?\d+(\.\d+)?")
 
 
 class NotPlain(ValueError):
@@ -41,6 +48,7 @@ def everything(root: Path = ROOT) -> Iterator[Message]:
         ("simc_core", "py", in_python),
         ("pages", "py", in_python),
         ("pages/common/live", "js", in_script),
+        ("pages/common/lessons/data", "toml", in_lesson),
     ):
         for path in sorted((root / folder).rglob(f"*.{suffix}")):
             if "vendor" not in path.parts:
@@ -77,6 +85,25 @@ def in_script(text: str, place: str) -> Iterator[Message]:
             line = text.count("\n", 0, found.start()) + 1
             raise NotPlain(f"{place}, line {line}: said() takes a text in double quotes")
         yield Message("".join(map(ast.literal_eval, re.findall(TEXT, found[1]))), "", "", place)
+
+
+def in_lesson(text: str, place: str) -> Iterator[Message]:
+    """Those of a lesson: all that a reader sees of it, but for bare numbers."""
+    content = tomllib.loads(text)
+    parts = [content["play"], *content["moves"], *content.get("cases", {}).values()]
+    parts += [*content.get("claims", ()), *content.get("printed", ())]
+    found = [content.get(name, "") for name in OF_A_LESSON] + [
+        part.get(name, "") for part in parts for name in OF_ITS_PARTS
+    ]
+    for each in found:
+        for one in [each] if isinstance(each, str) else each:
+            if one and not is_number(one):
+                yield Message(one, "", "", place)
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is a number and nothing else, which has no words."""
+    return NUMBER.fullmatch(text) is not None
 
 
 def template() -> Catalog:
