@@ -25,23 +25,38 @@ UPLOT = HERE / "vendor" / "uplot.min.js"
 
 @cache
 def _instrument(name: str, language: str):
-    """One for each language: what changes it makes the instrument anew."""
+    """One for each language."""
     html = _text(HERE / "kit" / "live.html")
     css = palette.css_variables(".live") + _text(
         UPLOT.with_suffix(".css"), HERE / "kit" / "live.css", HERE / "kit" / "lecture.css"
     )
     js = _text(UPLOT) + spoken(language) + bundled(HERE / name / "main.js")
-    own = "" if language == ENGLISH else f"_{language}"
-    return st.components.v2.component(f"simc_live_{name}{own}", html=html, css=css, js=js)
+    return st.components.v2.component(_in_language(f"simc_live_{name}", language), html=html, css=css, js=js)
 
 
 def _text(*files: Path) -> str:
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 
 
+@cache
+def _message(language: str):
+    js = spoken(language) + bundled(HERE / "kit" / "message.js")
+    return st.components.v2.component(_in_language("simc_live_message", language), html="<span></span>", js=js)
+
+
+def _in_language(name: str, language: str) -> str:
+    """Another language is another instrument, which is told everything anew."""
+    return name if language == ENGLISH else f"{name}_{language}"
+
+
 for each in ("tuning", "cascade", "hand", "plane"):
     _instrument(each, ENGLISH)
-message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
+_message(ENGLISH)
+
+
+def message(key: str, data: bytes) -> None:
+    """Numbers for an instrument of this page."""
+    _message(language())(key=_in_language(key, language()), data=data)
 
 
 def staged(name: str, panels: Sequence[str], figures: Sequence[str], view: str) -> None:
@@ -65,8 +80,9 @@ def show(name: str, key: str, data: bytes, take: Callable[[Mapping], None]) -> i
         else:
             take(release)
 
+    own = _in_language(key, language())
     asked = _instrument(name, language())(
-        key=key, data=data, on_release_change=lambda: heard(state.widget(key)["release"])
+        key=own, data=data, on_release_change=lambda: heard(state.widget(own)["release"])
     )
     if asked.release and int(asked.release["n"]) != state.memory(f"{key}_answers", int):
         heard(asked.release)

@@ -17,7 +17,7 @@ def spoken(language: str) -> str:
     if known is None:
         return ""
     words = {template: known.template(Text(template, template, {})) for template in _templates()}
-    return f"const SPOKEN = {json.dumps({'words': words, 'decimal': ','}, ensure_ascii=False)};\n"
+    return f"const SPOKEN = {json.dumps({'language': language, 'words': words, 'decimal': ','}, ensure_ascii=False)};\n"
 
 
 @cache
