@@ -17,8 +17,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import lfilter
 
+from simc_core.algebra.recursion import first_order
 from simc_core.algebra.state_space import chain
 from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
@@ -155,7 +155,7 @@ def _known(form: ParallelPid, actuation: Actuation, inputs: Inputs, dt: float, N
         ratio = dt / form.tau_F  # the filter under an input that is linear over a step
         held = -math.expm1(-ratio)
         grown = 1 - held / ratio
-        nF = lfilter([grown, held - grown], [1.0, -math.exp(-ratio)], n)
+        nF = first_order(grown * n + (held - grown) * np.append(0.0, n[:-1]), math.exp(-ratio))
         n_slope = _both((n - nF) / form.tau_F)
     else:
         rF, nF = inputs.r(t), n
