@@ -41,6 +41,7 @@ from simc_core.simulation.actuator.actuation import (
 )
 from simc_core.simulation.actuator.one_step import Linear, whole_steps
 from simc_core.simulation.actuator.sampled import sampled
+from simc_core.wording import said
 
 # Columns of z behind x. ASKED: u at the start and the end of the step before if there were no limits, GIVEN: as it is.
 # ASKED1 and INTEGRAL lack what u of that step adds to them.   ASK, RATE: see _known, RATE over the whole step.
@@ -75,7 +76,7 @@ def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inp
     system, theta = _measured(loop, form), loop.plant.theta
     m = whole_steps(theta * FEWEST_STEPS / inputs.t_end) if theta else 0
     dt = theta / m if m else inputs.t_end / FEWEST_STEPS
-    N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
+    N = affordable(inputs.t_end / dt, said("a dead time of {theta:g}", theta=theta))
     m, n = min(m, N), len(system.B)
     plant = Driven(system, system.ramp(dt), dt, theta, inputs)
     law = _law(plant, form.Ki, dt / 2, tracking_time_in_use(loop, actuation), at_once=m == 0)
