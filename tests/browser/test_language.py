@@ -57,5 +57,6 @@ def test_instruments_speak_the_language_that_is_chosen(open_page):
         page.goto(f"{server.url}/cascade?lang={BRACKETS}")
         idle(page)
         at_rest(page)
+        assert left_in_english(page) == []
     finally:
         server.stop()
