@@ -101,6 +101,12 @@ def test_a_link_opens_a_language_and_pages_keep_it(monkeypatch):
     assert "lang=xx" in copyables(app)[0]
 
 
+def test_a_language_is_chosen_where_there_are_several(monkeypatch):  # the choice itself: tests/browser/test_language.py
+    assert not [box for box in run_page("half_rule").selectbox if box.key == "lang"]
+    offer_brackets(monkeypatch)
+    assert run_page("half_rule").selectbox(key="lang").options == ["English", "in brackets"]
+
+
 def test_english_is_not_named_in_an_address_and_others_are_refused():
     app = run_page("plant", lang="en")
     assert "lang" not in address(app)

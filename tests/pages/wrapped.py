@@ -87,10 +87,11 @@ def speak_brackets(monkeypatch) -> None:
 
 
 def left_in_english(app: AppTest) -> list[str]:
-    """What the page shows outside brackets, but for symbols, numbers, foreign text and formulas."""
+    """What the page shows outside brackets, but for symbols, numbers, foreign text, formulas, names of languages."""
     found = []
     for place, text in visible(app):
-        bare = "" if text in FORMULAS or NAME_OF_LOOP.fullmatch(text) else outside(text)
+        known = text in FORMULAS or text in catalogues.OFFERED.values() or NAME_OF_LOOP.fullmatch(text)
+        bare = "" if known else outside(text)
         if any(word not in SYMBOLS for word in WORD.findall(bare)) or re.search(r"\d\.\d", bare):
             found.append(f"{place}: {text}")
     return found
