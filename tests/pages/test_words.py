@@ -144,15 +144,21 @@ def test_no_view_of_a_cascade_mixes(view, monkeypatch):
     assert left_in_english(unfold(app, "enter_Gb")) == []
 
 
+SYNTHESIS = {"method": "synthesis"}
 CASCADES = {
-    "synthesis": {"method": "synthesis", "unit": "min", "inner": "PI", "Ms_inner": "1.7"},
-    "inner loop unstable": {"tau_c_inner": "0.05", "Gb": "exp(-s)/(2s+1)"},
-    "unstable": {"tau_c_outer": "0.05"},
+    "synthesis": {**SYNTHESIS, "unit": "min", "inner": "PI", "Ms_inner": "1.7"},
+    "one speed is to blame": {**SYNTHESIS, "tau_c_inner": "0.05", "tau_c_outer": "10", "Gb": "exp(-s)/(3s+1)"},
+    "both speeds are": {
+        "tau_c_inner": "0.14",
+        "tau_c_outer": "0.3",
+        "Ga": "exp(-s)/(0.4s+1)",
+        "Gb": "0.4exp(-9s)/(1.9s+1)",
+    },
+    "Kd of the wrong sign": {**SYNTHESIS, "Ga": "exp(-0.25s)/s", "Gb": "exp(-0.5s)/((s+1)(2s+1))"},
+    "long dead time": {**SYNTHESIS, "Ga": "exp(-s)/(s+1)^2", "Gb": "exp(-0.1s)/(0.1s+1)"},
     "no SIMC": {"Gb": "exp(-s)/(20s-1)"},
-    "wrong sign, dead time": {"method": "synthesis", "Ga": "exp(-0.25s)/s", "Gb": "exp(-9s)/((s+1)(2s+1))"},
-    "slow loops": {"Ga": "2exp(-2s)/(5s+1)", "tau_c_outer": "30"},
-    "Ms not met": {"method": "synthesis", "Ga": "-1.5exp(-3s)/(1-10s)", "Gb": "2exp(-s)/(s+1)"},
-    "pays": {"Ga": "exp(-5s)/(20s+1)", "Gb": "exp(-0.5s)/(3s+1)"},
+    "far apart": {"tau_c_outer": "30", "form": "series", "tau_c_inner": "0.05"},
+    "Ms not met": {**SYNTHESIS, "Ga": "-1.5exp(-3s)/(1-10s)", "Gb": "2exp(-s)/(s+1)"},
 }
 
 
