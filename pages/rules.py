@@ -8,6 +8,7 @@ from pages.common.rules.table import question_of
 from pages.common.session import state
 from pages.common.shell import header
 from pages.common.studies.single import attempt, present_study
+from pages.common.words import words
 
 design = header.show("rules")
 view.open_asked(state.asked_view())
@@ -28,7 +29,7 @@ with explain_refusal():
             view.trade_off(question, rows, row, present)
     with right if which == view.PICTURES[0] else left:
         if row is None:
-            st.info("No rule has settings for this plant.")
+            st.info(words("No rule has settings for this plant."))
         else:
             chosen.word(row, question)
             chosen.actions(row, question, design)

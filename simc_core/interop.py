@@ -24,6 +24,7 @@ from simc_core.errors import FormError, InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 HIGHEST_PADE = 20  # beyond it the coefficients of the approximation itself are rounding
 RATIONAL = (control.TransferFunction, control.StateSpace, signal.lti)
@@ -94,7 +95,9 @@ def controller_from(system: System) -> ParallelPid:
     else:  # no integral action: Ki = 0
         num, integral = np.append(num, 0.0), den
     if len(num) > 3 or len(integral) > 2 or integral[-1] == 0:
-        raise FormError(f"a PID controller is (Kd s^2 + Kp s + Ki)/(s (tau_F s + 1)), found {degrees}")
+        raise FormError(
+            said("a PID controller is (Kd s^2 + Kp s + Ki)/(s (tau_F s + 1)), found {degrees}", degrees=degrees)
+        )
     Kd, Kp, Ki = np.concatenate([np.zeros(3 - len(num)), num]) / integral[-1]
     tau_F = integral[0] / integral[-1] if len(integral) == 2 else 0.0
     return ParallelPid(float(Kp), float(Ki), float(Kd), float(tau_F))
@@ -152,7 +155,7 @@ def _filtered(form: ParallelPid) -> tuple[np.ndarray, ...]:
 
 def _order(theta: float, pade_order: int | None) -> int:
     if pade_order is None:
-        raise InvalidParameter(f"pade_order must be given where theta = {theta:g} > 0, found None")
+        raise InvalidParameter(said("pade_order must be given where theta = {theta:g} > 0, found None", theta=theta))
     return checks.whole("pade_order", pade_order, 1, HIGHEST_PADE)
 
 
@@ -160,20 +163,29 @@ def _polynomials(system: System) -> tuple[np.ndarray, np.ndarray]:
     """Numerator and denominator, descending powers, leading coefficients that are only rounding removed."""
     if not isinstance(system, RATIONAL):
         raise InvalidParameter(
-            f"system must be of control.TransferFunction, StateSpace or scipy.signal.lti, found {type(system).__name__}"
+            said(
+                "system must be of control.TransferFunction, StateSpace or scipy.signal.lti, found {what}",
+                what=type(system).__name__,
+            )
         )
     if isinstance(system, signal.lti):
         form = system.to_tf()
         num, den = np.atleast_1d(form.num), np.array(form.den)
         if num.ndim != 1:
-            raise InvalidParameter(f"system must have one input and one output, found {len(num)} outputs")
+            raise InvalidParameter(said("system must have one input and one output, found {n} outputs", n=len(num)))
     else:
         if not system.issiso():
             raise InvalidParameter(
-                f"system must have one input and one output, found {system.ninputs} and {system.noutputs}"
+                said(
+                    "system must have one input and one output, found {ninputs} and {noutputs}",
+                    ninputs=system.ninputs,
+                    noutputs=system.noutputs,
+                )
             )
         if system.isdtime(strict=True):
-            raise InvalidParameter(f"system must be in continuous time, found a sampling period of {system.dt}")
+            raise InvalidParameter(
+                said("system must be in continuous time, found a sampling period of {dt}", dt=system.dt)
+            )
         form = control.tf(system)
         num, den = form.num[0][0], np.array(form.den[0][0])
     num, den = (np.trim_zeros(np.real(np.asarray(each)), "f") for each in (num, den))

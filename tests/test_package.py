@@ -10,10 +10,11 @@ import pytest
 from tests.browser.tools import ROOT
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-# None in sys.modules makes an import fail as if the package were not installed.
+# None in sys.modules makes an import fail as if the package were not installed. scipy.signal and scipy.stats stand here
+# because they double the time in which every process of the program starts.
 IMPORT = """
 import sys
-sys.modules.update(dict.fromkeys(["streamlit", "plotly", "control", "pages"]))
+sys.modules.update(dict.fromkeys(["streamlit", "plotly", "control", "pages", "scipy.signal", "scipy.stats"]))
 sys.path.insert(0, sys.argv[1])
 import simc_core
 print(simc_core.__file__, simc_core.simc(simc_core.FirstOrderDelay(1, 1, 8)).tau_I)

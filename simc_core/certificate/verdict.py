@@ -29,6 +29,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
 from simc_core.loops.well_posed import require_well_posed
+from simc_core.wording import said
 
 ON_NEUTRAL_LIMIT = 1e-12  # relative: closer than this to |L(inf)| = 1 is on it
 ASIDE = 1e-6  # relative shift of the contour past zeros on the axis
@@ -36,6 +37,7 @@ DECAY = 0.03  # over the sum of all times of a loop: the rate that is certified 
 NEUTRAL_TURNS, MOST_TURNS = 1e3, 1e6  # omega theta up to which a zero on the axis is taken for the only one near
 
 Verdict = Literal["stable", "unstable", "marginal"]
+IN_WORDS = {"stable": said("stable"), "unstable": said("unstable"), "marginal": said("marginal")}
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,8 +269,13 @@ def _beside(terms: Sequence[Factored], touches: float, neutral: float) -> Stabil
     found = winding(characteristic([shifted(term, sigma) for term in terms])) if turns <= most else None
     if found is None or found.zeros is None:
         raise InvalidParameter(
-            f"omega theta of poles on the imaginary axis must be <= {most:g}, found {turns:g} (|L(inf)| = "
-            f"{neutral:.12g}): the poles beside them cannot be told from these in double precision"
+            said(
+                "omega theta of poles on the imaginary axis must be <= {most:g}, found {turns:g} (|L(inf)| = "
+                "{neutral:.12g}): the poles beside them cannot be told from these in double precision",
+                most=most,
+                turns=turns,
+                neutral=neutral,
+            )
         )
     return Stability("unstable", found.zeros, neutral) if found.zeros else Stability("marginal", 0, neutral)
 

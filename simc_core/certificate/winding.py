@@ -21,6 +21,7 @@ from simc_core.certificate.argument_bounds import BatchedSum
 from simc_core.certificate.characteristic import Characteristic
 from simc_core.certificate.segments import Nodes, geometric, side_by_side, split
 from simc_core.errors import InvalidParameter
+from simc_core.wording import said
 
 MOST_SEGMENTS = 60_000  # of one loop, about 0.1 s; a usual one needs 30 to 100
 TOGETHER = 40  # loops; more do not fit the cache
@@ -99,8 +100,13 @@ def _verdict(f: Characteristic, turned: float, last: float, touch: float, work: 
 def _refuse(functions: Sequence[Characteristic], work: np.ndarray) -> None:
     most = int(work.argmax())
     raise InvalidParameter(
-        f"the stability certificate must need <= {MOST_SEGMENTS} segments, found {work[most]:.0f}: the loop is too "
-        f"close to |L(inf)| = 1 (here {functions[most].neutral:g}) or its time constants are too far apart"
+        said(
+            "the stability certificate must need <= {most_segments} segments, found {work:.0f}: the loop is too "
+            "close to |L(inf)| = 1 (here {neutral:g}) or its time constants are too far apart",
+            most_segments=MOST_SEGMENTS,
+            work=work[most],
+            neutral=functions[most].neutral,
+        )
     )
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from simc_core import checks
 from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
+from simc_core.wording import said
 
 MOST_SCANS = 100  # between a sample and the output made of it
 
@@ -84,7 +85,7 @@ LAWS = {"backward": Law(backward, backward_response), "tustin": Law(tustin, tust
 def known_law(law: str) -> str:
     """`law` if it is one of LAWS. Raises InvalidParameter."""
     if law not in LAWS:
-        raise InvalidParameter(f"law must be one of {', '.join(LAWS)}, found {law!r}")
+        raise InvalidParameter(said("law must be one of {laws}, found {law!r}", laws=", ".join(LAWS), law=law))
     return law
 
 
@@ -97,7 +98,11 @@ def law_for(law: str, pid: ParallelPid, h: float) -> Law:
     """The law for this controller. Raises InvalidParameter: not one of LAWS, or "tustin" with a filter that rings."""
     if known_law(law) == "tustin" and (pid.tau_F or pid.Kd) and pid.tau_F < h / 2:
         raise InvalidParameter(
-            f'tau_F must be >= h/2 = {h / 2:g} for the law "tustin" (0 will do without derivative action), '
-            f'found {pid.tau_F:g}: "backward" has no such limit'
+            said(
+                'tau_F must be >= h/2 = {half:g} for the law "tustin" (0 will do without derivative action), '
+                'found {tau_F:g}: "backward" has no such limit',
+                half=h / 2,
+                tau_F=pid.tau_F,
+            )
         )
     return LAWS[law]

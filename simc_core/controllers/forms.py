@@ -22,6 +22,7 @@ from simc_core.algebra.factors import Factored, factors
 from simc_core.controllers.any_form import AnyForm
 from simc_core.controllers.in_factors import parallel_factors, series_factors
 from simc_core.errors import FormError, InvalidParameter
+from simc_core.wording import said
 
 FORMS = ("series", "ideal", "parallel")
 DOUBLE_ROOT = 1e-12  # tau_I' = 4 tau_D' up to rounding counts as equality
@@ -176,8 +177,12 @@ class IdealPid(AnyForm):
         root = 1 - 4 * self.tau_D / self.tau_I
         if root < -DOUBLE_ROOT:
             raise FormError(
-                f"a series form needs tau_I >= 4 tau_D = {4 * self.tau_D:g}, found tau_I = {self.tau_I:g}: "
-                "the zeros of the controller are complex"
+                said(
+                    "a series form needs tau_I >= 4 tau_D = {tau_D:g}, found tau_I = {tau_I:g}: the zeros of the "
+                    "controller are complex",
+                    tau_D=4 * self.tau_D,
+                    tau_I=self.tau_I,
+                )
             )
         f = (1 + math.sqrt(max(root, 0.0))) / 2
         return SeriesPid(f * self.Kc, f * self.tau_I, self.tau_D / f, self.tau_F, self.b, self.c)
@@ -231,7 +236,7 @@ class ParallelPid(AnyForm):
         put(self, "tau_F", checks.optional_time("tau_F", self.tau_F))
         _weights(self)
         if self.Kp == self.Ki == self.Kd == 0:
-            raise InvalidParameter("one of Kp, Ki, Kd must not be zero, found 0, 0, 0")
+            raise InvalidParameter(said("one of Kp, Ki, Kd must not be zero, found 0, 0, 0"))
 
     @property
     def factored(self) -> Factored:
@@ -256,10 +261,17 @@ class ParallelPid(AnyForm):
         Raises FormError for Kp = 0 (no ideal form) and where tau_I or tau_D would be negative.
         """
         if self.Kp == 0:
-            raise FormError(f"an ideal form needs Kp != 0, found Kp = 0 with Ki = {self.Ki:g}, Kd = {self.Kd:g}")
+            raise FormError(
+                said("an ideal form needs Kp != 0, found Kp = 0 with Ki = {Ki:g}, Kd = {Kd:g}", Ki=self.Ki, Kd=self.Kd)
+            )
         if self.Ki * self.Kp < 0 or self.Kd * self.Kp < 0:
             raise FormError(
-                f"an ideal form needs Kp, Ki and Kd of one sign, found {self.Kp:g}, {self.Ki:g}, {self.Kd:g}"
+                said(
+                    "an ideal form needs Kp, Ki and Kd of one sign, found {Kp:g}, {Ki:g}, {Kd:g}",
+                    Kp=self.Kp,
+                    Ki=self.Ki,
+                    Kd=self.Kd,
+                )
             )
         tau_I = self.Kp / self.Ki if self.Ki else math.inf
         return IdealPid(self.Kp, tau_I, self.Kd / self.Kp, self.tau_F, self.b, self.c)
@@ -313,11 +325,15 @@ class IController(AnyForm):
 
     def to_series(self) -> SeriesPid:
         """Raises FormError: a pure integrator is the limit tau_I -> 0 of a series form, not one itself."""
-        raise FormError(f"pure integral action has no series form with tau_I > 0, found K_I = {self.K_I:g}")
+        raise FormError(
+            said("pure integral action has no series form with tau_I > 0, found K_I = {k_i:g}", k_i=self.K_I)
+        )
 
     def to_ideal(self) -> IdealPid:
         """Raises FormError, as to_series does."""
-        raise FormError(f"pure integral action has no ideal form with tau_I > 0, found K_I = {self.K_I:g}")
+        raise FormError(
+            said("pure integral action has no ideal form with tau_I > 0, found K_I = {k_i:g}", k_i=self.K_I)
+        )
 
     def to_parallel(self) -> ParallelPid:
         """The same controller in parallel form: Ki = K_I, Kp = Kd = 0."""

@@ -61,8 +61,8 @@ OUTPUT, INPUT = said("y  [{unit}]", unit=UNIT_OF_Y), said("u  [{unit}]", unit=UN
 
 TICKS = 12  # px, of the numbers on all axes
 PLOTLY_POWER = 1.25  # plotly draws powers of ten so much larger than it is told
-# px of room around the axes, enough for usual numbers and for one line of a legend. Where it is not, plotly makes more and
-# draws the figure a second time.
+# px of room around the axes, enough for usual numbers and for one line of a legend. Where it is not, plotly makes more
+# and draws the figure a second time.
 ROOM = {"l": 68, "r": 8, "t": 16, "b": 61}
 LEGEND = 37
 

@@ -7,8 +7,9 @@ import numpy as np
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
+from simc_core.wording import joined, said
 
-PEAK = "Mst = max(Ms, Mt)  [–]"
+PEAK = said("Mst = max(Ms, Mt)  [–]")
 STYLES = {"PI": (palette.Y, "circle", "solid"), "PID": (palette.REDUCED, "diamond", "dash")}
 WIDEST = 4.0  # peaks that are shown at first
 HIGHEST = 20.0  # values that are shown at first, over the smallest
@@ -52,7 +53,7 @@ def trade_off_figure(
         for each in fronts
     ]
     traces += [_path(each) for each in paths]
-    traces += [*_points(points, "Mst %{x:.4g}, error %{y:.4g}")]
+    traces += [*_points(points, said("Mst %{x:.4g}, error %{y:.4g}"))]
     shown = [each for each in (*points, present) if each is not None]
     low, high, widest = _view(fronts, shown)
     middle = (1 + widest) / 2
@@ -84,10 +85,10 @@ def _points(points: Sequence[Point], told: str) -> list[Trace]:
                     "mode": "markers",
                     "x": [each.x for each in own],
                     "y": [each.y for each in own],
-                    "name": f"{kind} rules",
+                    "name": said("{kind} rules", kind=kind),
                     "text": [each.name for each in own],
                     "customdata": [each.key for each in own],
-                    "hovertemplate": f"<b>%{{text}}</b><br>{told}<extra></extra>",
+                    "hovertemplate": joined(("<b>%{text}</b><br>", told, "<extra></extra>"), ""),
                     "marker": {"color": color, "symbol": symbol, "size": SIZE, "line": {"width": 0}},
                     "selected": {"marker": {"opacity": 1}},
                     "unselected": {"marker": {"opacity": 1}},

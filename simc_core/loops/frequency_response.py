@@ -9,6 +9,7 @@ from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop, factored_plant
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
+from simc_core.wording import said
 
 MOST_FREQUENCIES = 1_000_000  # of one call, about 0.1 s
 
@@ -118,5 +119,5 @@ def at_frequencies(omega: ArrayLike) -> np.ndarray:
     found = checks.array("omega", omega, MOST_FREQUENCIES)
     wrong = found[~(np.isfinite(found) & (found > 0))]
     if wrong.size:
-        raise InvalidParameter(f"omega must be positive and finite, found {wrong[0]:g}")
+        raise InvalidParameter(said("omega must be positive and finite, found {wrong:g}", wrong=wrong[0]))
     return found

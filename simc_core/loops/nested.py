@@ -21,6 +21,7 @@ from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter, WrongType
 from simc_core.loops.loop import Loop
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 MOST_LOOPS = 6
 ONE = Factored(1.0, factors(), factors())
@@ -59,11 +60,14 @@ class NestedLoops:
         put(self, "controllers", checks.items("controllers", self.controllers, MOST_LOOPS))
         if len(self.blocks) != len(self.controllers) or not self.blocks:
             raise InvalidParameter(
-                f"blocks and controllers must be as many, at least one, found {len(self.blocks)} and "
-                f"{len(self.controllers)}"
+                said(
+                    "blocks and controllers must be as many, at least one, found {blocks} and {controllers}",
+                    blocks=len(self.blocks),
+                    controllers=len(self.controllers),
+                )
             )
         if self.controllers[-1] is None:
-            raise InvalidParameter("the outermost controller must be given, found None")
+            raise InvalidParameter(said("the outermost controller must be given, found None"))
 
     @property
     def outermost(self) -> Controller:
@@ -139,7 +143,7 @@ class CascadeLoop:
     def inner_loop(self) -> Loop:
         """The inner loop on its own. Raises InvalidParameter where there is none."""
         if self.inner is None:
-            raise InvalidParameter("inner must be a controller for the inner loop to exist, found None")
+            raise InvalidParameter(said("inner must be a controller for the inner loop to exist, found None"))
         return Loop(self.secondary, self.inner)
 
     @property

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from simc_core.certificate.verdict import stability
+from simc_core.certificate.verdict import IN_WORDS, stability
 from simc_core.errors import NotStable
 from simc_core.loops.nested import NestedLoops
 from simc_core.loops.on_demand import Later
@@ -15,6 +15,7 @@ from simc_core.metrics.step_records import StepMetrics, StepQuality
 from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.simulate_nested import time_scale
+from simc_core.wording import said
 
 AT_REST = 1e-9  # of the largest value: less than that moves in the last quarter of the horizon
 FIRST_HORIZON = 8.0  # first horizon, in units of all times of the loops together
@@ -53,13 +54,20 @@ def nested_performance(loop: NestedLoops) -> NestedPerformance:
     """performance of nested loops. Raises NotStable."""
     verdict = stability(loop)
     if verdict.verdict != "stable":
-        raise NotStable(f"step metrics exist for stable loops only, found a cascade that is {verdict.verdict}")
+        raise NotStable(
+            said(
+                "step metrics exist for stable loops only, found a cascade that is {verdict}",
+                verdict=IN_WORDS[verdict.verdict],
+            )
+        )
     pieces, N = _to_rest(loop), len(loop.blocks)
     y_and_u = pieces.coefficients[:, :, [N - 1, N]]
     _, right = Pieces(pieces.edges, y_and_u).ends()
     offset = np.abs(right[-1, 0] - np.array([1.0] + [0.0] * N))
     if np.any(offset > LARGEST_OFFSET * np.max(np.abs(right[:, 0]), axis=0)):
-        raise NotStable(f"IAE needs loops that settle without offset, found {float(np.max(offset)):.4g}")
+        raise NotStable(
+            said("IAE needs loops that settle without offset, found {offset:.4g}", offset=float(np.max(offset)))
+        )
     steps = metrics_of(_steps(pieces.edges, y_and_u))
     Later(_quality, loop, [known_of(step) for step in steps]).attach(steps)
     setpoint, *disturbances = steps
@@ -92,4 +100,8 @@ def _to_rest(loop: NestedLoops) -> Pieces:
         if moving <= AT_REST or before / 2 < moving <= STIFF_ROUNDING:
             return pieces
         before, t_end = moving, 2 * t_end
-    raise NotStable(f"the loops must come to rest within {t_end:.3g}, found ones too close to their stability limit")
+    raise NotStable(
+        said(
+            "the loops must come to rest within {t_end:.3g}, found ones too close to their stability limit", t_end=t_end
+        )
+    )

@@ -13,12 +13,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from simc_core.certificate.verdict import stability
+from simc_core.certificate.verdict import IN_WORDS, stability
 from simc_core.errors import NotStable
 from simc_core.loops.loop import Loop
 from simc_core.metrics.step_metrics import both_steps
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.one_delay.march import march
+from simc_core.wording import said
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(P)
 SLOPES = np.array([np.polynomial.chebyshev.chebval(NODES, np.polynomial.chebyshev.chebder(row)) for row in np.eye(P)])
@@ -55,13 +56,18 @@ def noise_variance(loop: Loop) -> float:
     """
     verdict = stability(loop)
     if verdict.verdict != "stable":
-        raise NotStable(f"a variance exists for a stable loop only, found one that is {verdict.verdict}")
+        raise NotStable(
+            said(
+                "a variance exists for a stable loop only, found one that is {verdict}",
+                verdict=IN_WORDS[verdict.verdict],
+            )
+        )
     if loop.controller.factored.relative_degree <= 0:
         return math.inf
     form = replace(loop.controller.to_parallel(), b=1.0, c=1.0)
     course = march(loop.plant, [form], None)
     if not course.at_rest[0]:
-        raise NotStable("the loop must come to rest for a variance, found one too close to its stability limit")
+        raise NotStable(said("the loop must come to rest for a variance, found one too close to its stability limit"))
     steps = both_steps(course)
     own = steps.owner == 0
     slopes = steps.y_and_u[1, own] @ SLOPES

@@ -19,7 +19,7 @@ import numpy as np
 
 from simc_core.certificate.characteristic import shifted
 from simc_core.certificate.poles import dominant_poles
-from simc_core.certificate.verdict import Stability, count_unstable_many, stability
+from simc_core.certificate.verdict import IN_WORDS, Stability, count_unstable_many, stability
 from simc_core.errors import InvalidParameter, NotStable, SimcError
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import CascadeLoop, NestedLoops, not_a_loop
@@ -32,6 +32,7 @@ from simc_core.simulation.collocation.pieces import ENDS
 from simc_core.simulation.one_delay.march_plants import march_plants
 from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.simulate import settled
+from simc_core.wording import said
 
 LARGEST_OFFSET = 1e-7  # of the largest value: with more at rest the integrals diverge
 INTEGRAL_PRECISION = 1e-6  # relative, of an integral
@@ -157,7 +158,12 @@ def performance_many(
 def _of_single(loop: Loop) -> Performance:
     verdict = stability(loop)
     if verdict.verdict != "stable":
-        raise NotStable(f"step metrics exist for a stable loop only, found one that is {verdict.verdict}")
+        raise NotStable(
+            said(
+                "step metrics exist for a stable loop only, found one that is {verdict}",
+                verdict=IN_WORDS[verdict.verdict],
+            )
+        )
     (found,) = _measured([loop], settled(loop), [verdict.decay])
     if isinstance(found, SimcError):
         raise found

@@ -19,6 +19,7 @@ from simc_core.metrics.performance import both_steps
 from simc_core.metrics.step_metrics import measures
 from simc_core.plants.plant import Plant
 from simc_core.simulation.one_delay.march import march
+from simc_core.wording import said
 
 CRITERIA = ("load", "setpoint", "J")
 MOST_TO_REST = 250  # elements; an optimal loop takes some thirty
@@ -42,7 +43,11 @@ class Criterion:
 
     def __post_init__(self) -> None:
         if self.name not in CRITERIA:
-            raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, found {self.name!r}")
+            raise InvalidParameter(
+                said(
+                    "criterion must be one of {criteria}, found {name!r}", criteria=", ".join(CRITERIA), name=self.name
+                )
+            )
 
     @property
     def weighs_derivative(self) -> float:

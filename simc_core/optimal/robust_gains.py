@@ -33,6 +33,7 @@ from simc_core.loops.loop import Loop, factored_plant
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.log_response import FactoredResponse
 from simc_core.sensitivity.search_grid import LIGHT, cluster
+from simc_core.wording import said
 
 PER_DECADE = 60
 LOGARITHMIC, PHASE_STEP, LAST = 3.0, 0.14, 60.0  # theta omega: where equal steps begin, their length, their end
@@ -240,7 +241,11 @@ def peak_bound(name: str, value: object) -> float:
     number = checks.real(name, value, high=LARGEST_M)
     if number <= 1:
         raise InvalidParameter(
-            f"{name} must be > 1, the peak of every loop with dead time or more lags, found {number:g}"
+            said(
+                "{name} must be > 1, the peak of every loop with dead time or more lags, found {number:g}",
+                name=name,
+                number=number,
+            )
         )
     return number
 

@@ -17,6 +17,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.loops.frequency_response import closed_inside
 from simc_core.loops.nested import NestedLoops
 from simc_core.sensitivity.nested_response import Ms_of
+from simc_core.wording import Text, said
 
 FASTEST, SLOWEST, SPEEDS = 1e-2, 1e2, 65  # in units of the scale
 OMEGAS = 240
@@ -43,7 +44,14 @@ def smallest_speed_with_peak(at: At, Ms: float, scale: float, name: str, Ms_name
         found = _polished(at, Ms, float(taus[i]), float(taus[i + 1]), search)
         if found is not None and _stable(at(found)):
             return found
-    raise InvalidParameter(f"{Ms_name} = {Ms:g} cannot be met: {_instead(loops, taus, peaks, name)}")
+    raise InvalidParameter(
+        said(
+            "{Ms_name} = {Ms:g} cannot be met: {instead}",
+            Ms_name=Ms_name,
+            Ms=Ms,
+            instead=_instead(loops, taus, peaks, name),
+        )
+    )
 
 
 class _Peaks:
@@ -102,11 +110,18 @@ def _stable(loop: NestedLoops) -> bool:
         return count_unstable(loop.terms).verdict == "stable"
 
 
-def _instead(loops: list[NestedLoops], taus: np.ndarray, peaks: np.ndarray, name: str) -> str:
+def _instead(loops: list[NestedLoops], taus: np.ndarray, peaks: np.ndarray, name: str) -> Text:
     for i in np.argsort(peaks, kind="stable")[:TRIED]:
         if _stable(loops[i]):
-            return (
-                f"the smallest peak of a stable loop is about {peaks[i]:.3g}, at {name} = {taus[i]:.4g}; "
-                "ask for a larger one"
+            return said(
+                "the smallest peak of a stable loop is about {peak:.3g}, at {name} = {tau:.4g}; ask for a larger one",
+                peak=float(peaks[i]),
+                name=name,
+                tau=float(taus[i]),
             )
-    return f"no {name} between {taus[0]:.4g} and {taus[-1]:.4g} gives a stable loop with it; ask for a larger one"
+    return said(
+        "no {name} between {fastest:.4g} and {slowest:.4g} gives a stable loop with it; ask for a larger one",
+        name=name,
+        fastest=float(taus[0]),
+        slowest=float(taus[-1]),
+    )

@@ -17,6 +17,7 @@ from simc_core.errors import NotStable
 from simc_core.loops.loop import Loop
 from simc_core.optimal.robust_gains import RobustGains
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 MOST_LIMITS = 24  # that are tried, the smallest Ki first: beyond them the dead time has turned often
 PRECISION = 1e-14
@@ -58,8 +59,11 @@ def stability_limit(plant: Plant, Kc: float) -> float:
         if stability(Loop(plant, ParallelPid(Kc, math.copysign(middle, Kc)))).verdict == "stable":
             return Kc / math.copysign(high, Kc)
     raise NotStable(
-        f"Kc must be a gain with which some integral time keeps the loop stable, found {Kc:g}: take a smaller one, or "
-        "one of the other sign, and for an unstable plant a larger one"
+        said(
+            "Kc must be a gain with which some integral time keeps the loop stable, found {Kc:g}: take a smaller "
+            "one, or one of the other sign, and for an unstable plant a larger one",
+            Kc=Kc,
+        )
     )
 
 

@@ -20,6 +20,7 @@ from simc_core.optimal.pid import best_pid
 from simc_core.optimal.problem import Found, Problem
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
+from simc_core.wording import Text, said
 
 KINDS = ("PI", "PID")
 REFERENCE_M = 1.59  # of the controllers that J is counted in [SG12]
@@ -27,6 +28,18 @@ LOOK = np.geomspace(0.1, 100, 13)  # tau_I in units of the scale, and tau_D/tau_
 DERIVATIVE = (0.1, 0.25, 0.5, 1.0)
 ACTIVE = 2e-5  # relative: peaks this near the bound are on it
 BISECTIONS, HIGHEST = 12, 30.0
+NONE_OF_PI = said(
+    "Ms must be large enough for a stable PI loop, found {M:g}: no PI controller with a peak below {highest:g} was "
+    "found; take PID",
+    M=math.nan,
+    highest=HIGHEST,
+)
+NONE_OF_PID = said(
+    "Ms must be large enough for a stable PID loop, found {M:g}: no PID controller with a peak below {highest:g} was "
+    "found; take a smaller tau_F, or a cascade",
+    M=math.nan,
+    highest=HIGHEST,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,17 +79,23 @@ class Search:
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
-            raise InvalidParameter(f"kind must be PI or PID, found {self.kind!r}")
+            raise InvalidParameter(said("kind must be PI or PID, found {kind!r}", kind=self.kind))
         if self.kind == "PI":
             return
         if not self.tau_F and self.criterion.name != "load":
             raise InvalidParameter(
-                f"tau_F must be > 0 for the criterion {self.criterion.name} of a PID controller, whose derivative acts "
-                "on the set point, found 0"
+                said(
+                    "tau_F must be > 0 for the criterion {name} of a PID controller, whose derivative acts on "
+                    "the set point, found 0",
+                    name=self.criterion.name,
+                )
             )
         if not self.tau_F and self.plant.factored.relative_degree == 0:
             raise InvalidParameter(
-                "tau_F must be > 0 for a PID controller of a plant that answers at once (of relative degree 0), found 0"
+                said(
+                    "tau_F must be > 0 for a PID controller of a plant that answers at once (of relative degree "
+                    "0), found 0"
+                )
             )
 
     def best(self, M: float) -> Optimum:
@@ -145,25 +164,32 @@ class Search:
         tau_I, tau_D = self._shapes()
         if np.isinf(problem.edges(tau_I, tau_D)[1]).any():
             raise NoOptimum(
-                f"the plant must have dead time, or more lags, for an optimal {self.kind} controller, found one whose "
-                "gain may grow without end within the bound: the error can be made as small as you like"
+                said(
+                    "the plant must have dead time, or more lags, for an optimal {kind} controller, found one "
+                    "whose gain may grow without end within the bound: the error can be made as small as you like",
+                    kind=self.kind,
+                )
             )
 
-    def _infeasible(self, problem: Problem) -> str:
+    def _infeasible(self, problem: Problem) -> Text:
         tau_I, tau_D = self._shapes()
 
         def feasible(M: float) -> bool:
             return bool(np.isfinite(problem.gains.highest(problem.shapes(tau_I, tau_D), M)[1]).any())
 
-        said = f"Ms must be large enough for a stable {self.kind} loop, found {problem.M:g}"
         if not feasible(HIGHEST):
-            other = "take PID" if self.kind == "PI" else "take a smaller tau_F, or a cascade"
-            return f"{said}: no {self.kind} controller with a peak below {HIGHEST:g} was found; {other}"
+            return (NONE_OF_PI if self.kind == "PI" else NONE_OF_PID).put(M=problem.M)
         low, high = problem.M, HIGHEST
         for _ in range(BISECTIONS):
             middle = math.sqrt(low * high)
             low, high = (low, middle) if feasible(middle) else (middle, high)
-        return f"{said}: the smallest that was found is about {high:.3g}"
+        return said(
+            "Ms must be large enough for a stable {kind} loop, found {M:g}: the smallest that was found is about "
+            "{high:.3g}",
+            kind=self.kind,
+            M=problem.M,
+            high=high,
+        )
 
 
 def _warm(found: Sequence[Optimum], M: float) -> Found:

@@ -11,11 +11,12 @@ integrating, a = k' theta    PI 0.35/a, 13.4 theta     PID 0.45/a, 8 theta, 0.5 
 from simc_core.controllers.forms import IdealPid
 from simc_core.plants.models import IntegratingDelay, Model
 from simc_core.rules.domain import dead_time, first_order, kind_of, reaction_curve
+from simc_core.wording import said
 
 
 def amigo(model: Model, kind: str = "PI") -> IdealPid:
     """PI or PID settings, ideal form. Recommended for PID: theta/(theta + tau1) > 0.3. [AH04]"""
-    rule = "AMIGO"
+    rule = said("AMIGO")
     kind_of(kind, ("PI", "PID"), rule)
     if isinstance(model, IntegratingDelay):
         a, theta, _ = reaction_curve(model, rule)

@@ -25,6 +25,7 @@ from simc_core.rules.simc_variants import improved_simc, isimc
 from simc_core.rules.spectral import spectral
 from simc_core.rules.ultimate_rules import no_overshoot, pessen, some_overshoot, tyreus_luyben
 from simc_core.rules.ziegler_nichols import zn_step, zn_ultimate
+from simc_core.wording import said
 
 Within = Callable[[Model, str, float | None], bool]
 
@@ -99,40 +100,122 @@ def _amigo(model: Model, kind: str, knob: float | None) -> bool:
 
 
 _PI, _PID, _PI_PID, _P_PI_PID = ("PI",), ("PID",), ("PI", "PID"), ("P", "PI", "PID")
-_LAG, _LAG_OR_INTEGRATOR = "first order with dead time", "first order with dead time, integrating"
-_CURVE, _FITS = "tangent at the steepest point of a step response", "theta/tau1 from 0.1 to 1"
-_LIMIT, _REST = "a loop with an ultimate gain", "plants that come to rest"
-_CHR, _EPS = "Chien-Hrones-Reswick", "epsilon >= 1.7 theta and 0.1 tau1"
+_LAG, _LAG_OR_INTEGRATOR = said("first order with dead time"), said("first order with dead time, integrating")
+_CURVE, _FITS = said("tangent at the steepest point of a step response"), said("theta/tau1 from 0.1 to 1")
+_CURVE_FITS = said("tangent at the steepest point of a step response; theta/tau1 from 0.1 to 1")
+_LIMIT, _REST = said("a loop with an ultimate gain"), said("plants that come to rest")
+_MANY_LAGS, _REAL_POLES = said("plants that come to rest, many lags"), said("plants that come to rest, real poles")
+_EPS = said("epsilon >= 1.7 theta and 0.1 tau1")
+_EPS_BOTH = said("epsilon >= 1.7 theta and 0.1 tau1; PID: 0.8 theta")
+_HANDBOOKS = said("handbooks")
 _TABLE = [
-    Rule("simc", "SIMC", "[SK03]", _PI_PID, "model", "all reduced models", "tau_c", _simc),
-    Rule("improved_simc", "improved SIMC", "[SG12]", _PI, "model", _LAG_OR_INTEGRATOR, "tau_c", improved_simc),
-    Rule("isimc", "iSIMC", "[GS18]", _PID, "model", _LAG_OR_INTEGRATOR, "tau_c", isimc),
-    Rule("lambda", "Lambda", "paper industry", _PI, "model", _LAG_OR_INTEGRATOR, "lambda_", lambda_tuning),
-    Rule("imc_1986", "IMC 1986", "[RMS86]", _PI_PID, "model", f"{_EPS}; PID: 0.8 theta", "epsilon", imc_1986, _epsilon),
-    Rule("imc_1986_improved", "IMC improved PI", "[RMS86]", _PI, "model", _EPS, "epsilon", imc_1986_improved, _epsilon),
-    Rule("lee_1998", "Lee, Park, Lee, Brosilow", "[LPLB98]", _PID, "model", _LAG, "lambda_", lee_1998),
-    Rule("desired_model", "desired model", "[V06]", _PI, "model", _LAG, "beta", desired_model),
-    Rule("amigo", "AMIGO", "[AH04]", _PI_PID, "model", "PID: theta/(theta + tau1) > 0.3", None, amigo, _amigo),
-    Rule("zn_step", "Ziegler-Nichols, step", "[ZN42]", _P_PI_PID, "model", f"{_CURVE}; {_FITS}", None, zn_step, _fits),
-    Rule("zn_ultimate", "Ziegler-Nichols, ultimate", "[ZN42]", _P_PI_PID, "ultimate", _LIMIT, None, zn_ultimate),
-    Rule("tyreus_luyben", "Tyreus-Luyben", "[TL92]", _PI_PID, "ultimate", "integrating, slow", None, tyreus_luyben),
-    Rule("pessen", "Pessen", "handbooks", _PID, "ultimate", _LIMIT, None, pessen),
-    Rule("some_overshoot", "some overshoot", "handbooks", _PID, "ultimate", _LIMIT, None, some_overshoot),
-    Rule("no_overshoot", "no overshoot", "handbooks", _PID, "ultimate", _LIMIT, None, no_overshoot),
-    Rule("chr_setpoint_0", f"{_CHR}, set point, 0 %", "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_setpoint_0),
-    Rule("chr_setpoint_20", f"{_CHR}, set point, 20 %", "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_setpoint_20),
-    Rule("chr_load_0", f"{_CHR}, load, 0 %", "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_load_0),
-    Rule("chr_load_20", f"{_CHR}, load, 20 %", "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_load_20),
-    Rule("cohen_coon", "Cohen-Coon", "[CC53]", COHEN_COON, "model", "theta/tau1 < 1", None, cohen_coon, _short_delay),
-    Rule("iae_load", "IAE, load", "[M67]", _PI_PID, "model", _FITS, None, iae_load, _fits),
-    Rule("itae_load", "ITAE, load", "[M67]", _PI_PID, "model", _FITS, None, itae_load, _fits),
-    Rule("iae_setpoint", "IAE, set point", "[R69]", _PI_PID, "model", _FITS, None, iae_setpoint, _fits),
-    Rule("itae_setpoint", "ITAE, set point", "[R69]", _PI_PID, "model", _FITS, None, itae_setpoint, _fits),
-    Rule("kuhn", "Kuhn T-sum", "[K95]", _PI_PID, "plant", f"{_REST}, many lags", None, kuhn),
-    Rule("kuhn_fast", "Kuhn T-sum, fast", "[K95]", _PI_PID, "plant", f"{_REST}, many lags", None, kuhn_fast),
-    Rule("magnitude_optimum", "magnitude optimum", "[K54]", _PI, "plant", _REST, None, magnitude_optimum),
-    Rule("symmetrical_optimum", "symmetrical optimum", "[K54]", _PI, "plant", "integrating", None, symmetrical_optimum),
-    Rule("schaedel", "Schaedel PI", "[SCH97]", _PI, "plant", f"{_REST}, real poles", None, schaedel),
-    Rule("spectral", "pole cancelling", "textbooks", _PI_PID, "model", "first or second order", "Ki", spectral),
+    Rule("simc", said("SIMC"), "[SK03]", _PI_PID, "model", said("all reduced models"), "tau_c", _simc),
+    Rule("improved_simc", said("improved SIMC"), "[SG12]", _PI, "model", _LAG_OR_INTEGRATOR, "tau_c", improved_simc),
+    Rule("isimc", said("iSIMC"), "[GS18]", _PID, "model", _LAG_OR_INTEGRATOR, "tau_c", isimc),
+    Rule("lambda", said("Lambda"), said("paper industry"), _PI, "model", _LAG_OR_INTEGRATOR, "lambda_", lambda_tuning),
+    Rule("imc_1986", said("IMC 1986"), "[RMS86]", _PI_PID, "model", _EPS_BOTH, "epsilon", imc_1986, _epsilon),
+    Rule(
+        "imc_1986_improved",
+        said("IMC improved PI"),
+        "[RMS86]",
+        _PI,
+        "model",
+        _EPS,
+        "epsilon",
+        imc_1986_improved,
+        _epsilon,
+    ),
+    Rule("lee_1998", said("Lee, Park, Lee, Brosilow"), "[LPLB98]", _PID, "model", _LAG, "lambda_", lee_1998),
+    Rule("desired_model", said("desired model"), "[V06]", _PI, "model", _LAG, "beta", desired_model),
+    Rule(
+        "amigo", said("AMIGO"), "[AH04]", _PI_PID, "model", said("PID: theta/(theta + tau1) > 0.3"), None, amigo, _amigo
+    ),
+    Rule("zn_step", said("Ziegler-Nichols, step"), "[ZN42]", _P_PI_PID, "model", _CURVE_FITS, None, zn_step, _fits),
+    Rule("zn_ultimate", said("Ziegler-Nichols, ultimate"), "[ZN42]", _P_PI_PID, "ultimate", _LIMIT, None, zn_ultimate),
+    Rule(
+        "tyreus_luyben",
+        said("Tyreus-Luyben"),
+        "[TL92]",
+        _PI_PID,
+        "ultimate",
+        said("integrating, slow"),
+        None,
+        tyreus_luyben,
+    ),
+    Rule("pessen", said("Pessen"), _HANDBOOKS, _PID, "ultimate", _LIMIT, None, pessen),
+    Rule("some_overshoot", said("some overshoot"), _HANDBOOKS, _PID, "ultimate", _LIMIT, None, some_overshoot),
+    Rule("no_overshoot", said("no overshoot"), _HANDBOOKS, _PID, "ultimate", _LIMIT, None, no_overshoot),
+    Rule(
+        "chr_setpoint_0",
+        said("Chien-Hrones-Reswick, set point, 0 %"),
+        "[CHR52]",
+        _P_PI_PID,
+        "model",
+        _CURVE,
+        None,
+        chr_setpoint_0,
+    ),
+    Rule(
+        "chr_setpoint_20",
+        said("Chien-Hrones-Reswick, set point, 20 %"),
+        "[CHR52]",
+        _P_PI_PID,
+        "model",
+        _CURVE,
+        None,
+        chr_setpoint_20,
+    ),
+    Rule(
+        "chr_load_0", said("Chien-Hrones-Reswick, load, 0 %"), "[CHR52]", _P_PI_PID, "model", _CURVE, None, chr_load_0
+    ),
+    Rule(
+        "chr_load_20",
+        said("Chien-Hrones-Reswick, load, 20 %"),
+        "[CHR52]",
+        _P_PI_PID,
+        "model",
+        _CURVE,
+        None,
+        chr_load_20,
+    ),
+    Rule(
+        "cohen_coon",
+        said("Cohen-Coon"),
+        "[CC53]",
+        COHEN_COON,
+        "model",
+        said("theta/tau1 < 1"),
+        None,
+        cohen_coon,
+        _short_delay,
+    ),
+    Rule("iae_load", said("IAE, load"), "[M67]", _PI_PID, "model", _FITS, None, iae_load, _fits),
+    Rule("itae_load", said("ITAE, load"), "[M67]", _PI_PID, "model", _FITS, None, itae_load, _fits),
+    Rule("iae_setpoint", said("IAE, set point"), "[R69]", _PI_PID, "model", _FITS, None, iae_setpoint, _fits),
+    Rule("itae_setpoint", said("ITAE, set point"), "[R69]", _PI_PID, "model", _FITS, None, itae_setpoint, _fits),
+    Rule("kuhn", said("Kuhn T-sum"), "[K95]", _PI_PID, "plant", _MANY_LAGS, None, kuhn),
+    Rule("kuhn_fast", said("Kuhn T-sum, fast"), "[K95]", _PI_PID, "plant", _MANY_LAGS, None, kuhn_fast),
+    Rule("magnitude_optimum", said("magnitude optimum"), "[K54]", _PI, "plant", _REST, None, magnitude_optimum),
+    Rule(
+        "symmetrical_optimum",
+        said("symmetrical optimum"),
+        "[K54]",
+        _PI,
+        "plant",
+        said("integrating"),
+        None,
+        symmetrical_optimum,
+    ),
+    Rule("schaedel", said("Schaedel PI"), "[SCH97]", _PI, "plant", _REAL_POLES, None, schaedel),
+    Rule(
+        "spectral",
+        said("pole cancelling"),
+        said("textbooks"),
+        _PI_PID,
+        "model",
+        said("first or second order"),
+        "Ki",
+        spectral,
+    ),
 ]
 RULES: Mapping[str, Rule] = MappingProxyType({rule.key: rule for rule in _TABLE})

@@ -14,13 +14,14 @@ import math
 from simc_core.controllers.forms import IdealPid
 from simc_core.plants.models import Model
 from simc_core.rules.domain import kind_of, lag, reaction_curve
+from simc_core.wording import said
 
 KINDS = ("P", "PI", "PID")
 
 
 def chr_setpoint_0(model: Model, kind: str = "PI") -> IdealPid:
     """Set-point steps without overshoot. [CHR52]"""
-    a, theta, tau1 = _lag_curve(model, kind, "Chien-Hrones-Reswick, set point, 0 %")
+    a, theta, tau1 = _lag_curve(model, kind, said("Chien-Hrones-Reswick, set point, 0 %"))
     return {
         "P": IdealPid(0.3 / a, math.inf),
         "PI": IdealPid(0.35 / a, 1.2 * tau1),
@@ -30,7 +31,7 @@ def chr_setpoint_0(model: Model, kind: str = "PI") -> IdealPid:
 
 def chr_setpoint_20(model: Model, kind: str = "PI") -> IdealPid:
     """Set-point steps with 20 % overshoot. [CHR52]"""
-    a, theta, tau1 = _lag_curve(model, kind, "Chien-Hrones-Reswick, set point, 20 %")
+    a, theta, tau1 = _lag_curve(model, kind, said("Chien-Hrones-Reswick, set point, 20 %"))
     return {
         "P": IdealPid(0.7 / a, math.inf),
         "PI": IdealPid(0.6 / a, tau1),
@@ -40,7 +41,7 @@ def chr_setpoint_20(model: Model, kind: str = "PI") -> IdealPid:
 
 def chr_load_0(model: Model, kind: str = "PI") -> IdealPid:
     """Load steps without overshoot. [CHR52]"""
-    a, theta = _curve(model, kind, "Chien-Hrones-Reswick, load, 0 %")
+    a, theta = _curve(model, kind, said("Chien-Hrones-Reswick, load, 0 %"))
     return {
         "P": IdealPid(0.3 / a, math.inf),
         "PI": IdealPid(0.6 / a, 4 * theta),
@@ -50,7 +51,7 @@ def chr_load_0(model: Model, kind: str = "PI") -> IdealPid:
 
 def chr_load_20(model: Model, kind: str = "PI") -> IdealPid:
     """Load steps with 20 % overshoot. [CHR52]"""
-    a, theta = _curve(model, kind, "Chien-Hrones-Reswick, load, 20 %")
+    a, theta = _curve(model, kind, said("Chien-Hrones-Reswick, load, 20 %"))
     return {
         "P": IdealPid(0.7 / a, math.inf),
         "PI": IdealPid(0.7 / a, 2.3 * theta),

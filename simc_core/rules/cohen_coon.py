@@ -14,13 +14,14 @@ import math
 from simc_core.controllers.forms import IdealPid
 from simc_core.plants.models import Model
 from simc_core.rules.domain import kind_of, positive, reaction_curve
+from simc_core.wording import said
 
 KINDS = ("P", "PI", "PD", "PID")
 
 
 def cohen_coon(model: Model, kind: str = "PI") -> IdealPid:
     """Settings of the module docstring. Recommended: theta/tau1 < 1. [CC53]"""
-    rule = "Cohen-Coon"
+    rule = said("Cohen-Coon")
     kind_of(kind, KINDS, rule)
     a, theta, r = reaction_curve(model, rule)
     match kind:

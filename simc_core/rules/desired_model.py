@@ -10,11 +10,12 @@ from simc_core import checks
 from simc_core.controllers.forms import IdealPid
 from simc_core.plants.models import Model
 from simc_core.rules.domain import dead_time, kind_of, lag
+from simc_core.wording import said
 
 
 def desired_model(model: Model, kind: str = "PI", beta: float = 2.0) -> IdealPid:
     """PI settings of the module docstring; beta > 0 has no unit. [V06]"""
-    rule = "desired model"
+    rule = said("desired model")
     kind_of(kind, ("PI",), rule)
     model = lag(model, rule)
     beta = checks.real("beta", beta, 0.1, 1000.0)

@@ -28,6 +28,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.nested import NestedLoops
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 KINDS = ("PI", "PID")
 MOST_POLES = 6  # of a block: the expansion is cut off at TERMS, and needs 2 n + 3
@@ -88,7 +89,7 @@ def direct_synthesis(
     """
     lambda_ = checks.positive_time("lambda_", lambda_)
     if kind not in KINDS:
-        raise InvalidParameter(f"kind must be PI or PID, found {str(kind)[:20]}")
+        raise InvalidParameter(said("kind must be PI or PID, found {kind}", kind=str(kind)[:20]))
     h0, h1, h2 = _coefficients(process, lambda_, inside)
     if kind == "PI":
         return ParallelPid(h1, h0, b=b)
@@ -105,7 +106,11 @@ def _order(process: Plant, inside: Loop | NestedLoops | None) -> tuple[float, in
     """tau and p."""
     if process.order > MOST_POLES:
         raise InvalidParameter(
-            f"a block for direct synthesis may have at most {MOST_POLES} poles, found {process.order}"
+            said(
+                "a block for direct synthesis may have at most {most} poles, found {order}",
+                most=MOST_POLES,
+                order=process.order,
+            )
         )
     if inside is None:
         return process.theta, max(2 * process.order, 1)

@@ -10,14 +10,15 @@ from simc_core.plants.models import (
     SecondOrderDelay,
     UnstableDelay,
 )
+from simc_core.wording import joined, said
 
 IN_WORDS: dict[type, str] = {
-    FirstOrderDelay: "a first-order one",
-    SecondOrderDelay: "a second-order one",
-    IntegratingDelay: "an integrating one",
-    DoubleIntegratingDelay: "a double integrating one",
-    UnstableDelay: "an unstable one",
-    OscillatingDelay: "an oscillating one",
+    FirstOrderDelay: said("a first-order one"),
+    SecondOrderDelay: said("a second-order one"),
+    IntegratingDelay: said("an integrating one"),
+    DoubleIntegratingDelay: said("a double integrating one"),
+    UnstableDelay: said("an unstable one"),
+    OscillatingDelay: said("an oscillating one"),
 }
 
 
@@ -30,7 +31,11 @@ def first_order(model: Model, rule: str) -> FirstOrderDelay:
     """The model, which must be k e^{-theta s}/(tau1 s + 1)."""
     if not isinstance(model, FirstOrderDelay):
         raise OutOfDomain(
-            f"model must be a first-order one with dead time for the rule {rule}, found {in_words(model)}"
+            said(
+                "model must be a first-order one with dead time for the rule {rule}, found {model}",
+                rule=rule,
+                model=in_words(model),
+            )
         )
     return model
 
@@ -42,7 +47,7 @@ def reaction_curve(model: Model, rule: str) -> tuple[float, float, float]:
     """
     if isinstance(model, IntegratingDelay):
         if model.tau2:
-            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, found {model.tau2:g}")
+            raise OutOfDomain(said("tau2 must be 0 for the rule {rule}, found {tau2:g}", rule=rule, tau2=model.tau2))
         return model.k_prime * dead_time(model.theta, rule), model.theta, 0.0
     model = lag(model, rule)
     return model.k * model.theta / model.tau1, dead_time(model.theta, rule), model.theta / model.tau1
@@ -52,21 +57,32 @@ def lag(model: Model, rule: str) -> FirstOrderDelay:
     """The first-order model, which must have a lag."""
     model = first_order(model, rule)
     if model.tau1 == 0:
-        raise OutOfDomain(f"tau1 must be > 0 for the rule {rule}, found 0: it is made for a process with a lag")
+        raise OutOfDomain(
+            said("tau1 must be > 0 for the rule {rule}, found 0: it is made for a process with a lag", rule=rule)
+        )
     return model
 
 
 def dead_time(theta: float, rule: str) -> float:
     """theta, which must be > 0."""
     if theta == 0:
-        raise OutOfDomain(f"theta must be > 0 for the rule {rule}, found 0: without dead time it has no finite gain")
+        raise OutOfDomain(
+            said("theta must be > 0 for the rule {rule}, found 0: without dead time it has no finite gain", rule=rule)
+        )
     return theta
 
 
 def kind_of(kind: str, kinds: tuple[str, ...], rule: str) -> str:
     """The kind of controller, which must be one that the rule has."""
     if kind not in kinds:
-        raise OutOfDomain(f"kind must be {' or '.join(kinds)} for the rule {rule}, found {kind!r}")
+        raise OutOfDomain(
+            said(
+                "kind must be {kinds} for the rule {rule}, found {kind!r}",
+                kinds=joined(kinds, said(" or ")),
+                rule=rule,
+                kind=kind,
+            )
+        )
     return kind
 
 
@@ -74,6 +90,11 @@ def positive(name: str, value: float, rule: str) -> float:
     """A result of the formula, which must be > 0 to be a setting."""
     if not value > 0:
         raise OutOfDomain(
-            f"{name} must be > 0, found {value:.4g} from the rule {rule}: the model is outside its domain"
+            said(
+                "{name} must be > 0, found {value:.4g} from the rule {rule}: the model is outside its domain",
+                name=name,
+                value=value,
+                rule=rule,
+            )
         )
     return value

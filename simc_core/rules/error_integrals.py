@@ -11,6 +11,7 @@ from simc_core.controllers.forms import IdealPid
 from simc_core.errors import OutOfDomain
 from simc_core.plants.models import Model
 from simc_core.rules.domain import dead_time, kind_of, lag
+from simc_core.wording import said
 
 LOAD = {  # A, B, C, D, E, F
     ("IAE", "PI"): (0.984, -0.986, 0.608, -0.707, 0.0, 0.0),
@@ -24,6 +25,9 @@ SET_POINT = {
     ("ITAE", "PI"): (0.586, -0.916, 1.03, -0.165, 0.0, 0.0),
     ("ITAE", "PID"): (0.965, -0.855, 0.796, -0.147, 0.308, 0.929),
 }
+
+LOAD_NAMES = {"IAE": said("IAE, load"), "ITAE": said("ITAE, load")}
+SET_POINT_NAMES = {"IAE": said("IAE, set point"), "ITAE": said("ITAE, set point")}
 
 
 def iae_load(model: Model, kind: str = "PI") -> IdealPid:
@@ -47,18 +51,23 @@ def itae_setpoint(model: Model, kind: str = "PI") -> IdealPid:
 
 
 def _load(model: Model, criterion: str, kind: str) -> IdealPid:
-    k, r, tau1 = _model(model, kind, f"{criterion}, load")
+    k, r, tau1 = _model(model, kind, LOAD_NAMES[criterion])
     A, B, C, D, E, F = LOAD[criterion, kind]
     return IdealPid(A * r**B / k, tau1 / (C * r**D), E * tau1 * r**F)
 
 
 def _set_point(model: Model, criterion: str, kind: str) -> IdealPid:
-    rule = f"{criterion}, set point"
+    rule = SET_POINT_NAMES[criterion]
     k, r, tau1 = _model(model, kind, rule)
     A, B, C, D, E, F = SET_POINT[criterion, kind]
     if C + D * r <= 0:
         raise OutOfDomain(
-            f"theta/tau1 must be < {-C / D:.3g} for the rule {rule}, found {r:.4g}: tau_I would be negative"
+            said(
+                "theta/tau1 must be < {limit:.3g} for the rule {rule}, found {ratio:.4g}: tau_I would be negative",
+                limit=-C / D,
+                rule=rule,
+                ratio=r,
+            )
         )
     return IdealPid(A * r**B / k, tau1 / (C + D * r), E * tau1 * r**F)
 

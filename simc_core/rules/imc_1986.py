@@ -34,13 +34,14 @@ from simc_core.errors import OutOfDomain
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.rules.domain import dead_time, first_order, kind_of, lag
+from simc_core.wording import said
 
 PI_EPSILON, PID_EPSILON = 1.7, 0.8  # times theta: the smallest that is recommended, and what is taken by default
 
 
 def imc_1986(model: Model, kind: str = "PI", epsilon: float | None = None) -> IdealPid:
     """PI or PID of Table II; epsilon > 0 in the user's time unit, by default 1.7 theta, PID 0.8 theta. [RMS86]"""
-    rule = "IMC 1986"
+    rule = said("IMC 1986")
     kind_of(kind, ("PI", "PID"), rule)
     if kind == "PI":
         model = lag(model, rule)
@@ -54,7 +55,7 @@ def imc_1986(model: Model, kind: str = "PI", epsilon: float | None = None) -> Id
 
 def imc_1986_improved(model: Model, kind: str = "PI", epsilon: float | None = None) -> IdealPid:
     """Improved PI of Table II; epsilon > 0 in the user's time unit, by default 1.7 theta. [RMS86]"""
-    rule = "IMC 1986, improved PI"
+    rule = said("IMC 1986, improved PI")
     kind_of(kind, ("PI",), rule)
     model = first_order(model, rule)
     twice = 2 * model.tau1 + model.theta
@@ -92,9 +93,11 @@ def imc_without_delay(plant: Plant, epsilon: float, ramp: bool = False, all_pass
     eps = checks.positive_time("epsilon", epsilon)
     beta, order = _zero(plant), (plant.integrators, len(plant.lags), len(plant.lag_pairs))
     if not all_pass and (order != (0, 0, 1) or not beta):
-        raise OutOfDomain("all_pass must be True but for an oscillating plant with a zero 1 - beta s, found False")
+        raise OutOfDomain(
+            said("all_pass must be True but for an oscillating plant with a zero 1 - beta s, found False")
+        )
     if ramp and not plant.integrators:
-        raise OutOfDomain("ramp must be False for a plant without integrator, found True")
+        raise OutOfDomain(said("ramp must be False for a plant without integrator, found True"))
     times = sorted(plant.lags)
     match (*order, bool(beta), ramp):
         case (0, 1, 0, False, _):
@@ -105,7 +108,7 @@ def imc_without_delay(plant: Plant, epsilon: float, ramp: bool = False, all_pass
         case (0, 0, 1, _, _):
             tau, zeta = plant.lag_pairs[0]
             if zeta <= 0:
-                raise OutOfDomain(f"zeta must be > 0 for the rule IMC 1986, found {zeta:g}")
+                raise OutOfDomain(said("zeta must be > 0 for the rule IMC 1986, found {zeta:g}", zeta=zeta))
             below = eps + (2 if all_pass else 1) * beta
             Kc, tau_I, tau_D = 2 * zeta * tau / below, 2 * zeta * tau, tau / (2 * zeta)
             tau_F = beta * eps / below if all_pass else 0.0
@@ -123,16 +126,24 @@ def imc_without_delay(plant: Plant, epsilon: float, ramp: bool = False, all_pass
         case (1, 0, 0, True, True):
             Kc, tau_I, tau_D, tau_F = (2 * eps + beta) / (eps + beta) ** 2, 2 * eps + beta, 0.0, 0.0
         case _:
-            raise OutOfDomain(f"plant must be one of Table I of IMC 1986, found {plant.kind} of order {plant.order}")
+            raise OutOfDomain(
+                said(
+                    "plant must be one of Table I of IMC 1986, found {kind} of order {order}",
+                    kind=plant.kind,
+                    order=plant.order,
+                )
+            )
     return IdealPid(Kc / plant.k, tau_I, tau_D, tau_F)
 
 
 def _zero(plant: Plant) -> float:
     """beta of a zero 1 - beta s, 0 if there is none."""
     if plant.theta or plant.unstable_poles or plant.lead_pairs or any(T > 0 for T in plant.leads[:1]):
-        raise OutOfDomain("plant must have no dead time, no unstable pole and no zero but 1 - beta s for IMC 1986")
+        raise OutOfDomain(
+            said("plant must have no dead time, no unstable pole and no zero but 1 - beta s for IMC 1986")
+        )
     if len(plant.leads) > 1:
-        raise OutOfDomain(f"plant must have at most one zero for IMC 1986, found {len(plant.leads)}")
+        raise OutOfDomain(said("plant must have at most one zero for IMC 1986, found {n}", n=len(plant.leads)))
     return -plant.leads[0] if plant.leads else 0.0
 
 

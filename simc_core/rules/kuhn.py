@@ -10,11 +10,12 @@ from simc_core.plants.plant import Plant
 from simc_core.plants.taylor import taylor
 from simc_core.rules.domain import kind_of, positive
 from simc_core.rules.self_regulating import self_regulating
+from simc_core.wording import said
 
 
 def kuhn(plant: Plant, kind: str = "PI") -> IdealPid:
     """The usual settings. [K95]"""
-    k, TS = _gain_and_sum(plant, kind, "Kuhn")
+    k, TS = _gain_and_sum(plant, kind, said("Kuhn"))
     return IdealPid(0.5 / k, 0.5 * TS) if kind == "PI" else IdealPid(1 / k, 0.66 * TS, 0.167 * TS)
 
 

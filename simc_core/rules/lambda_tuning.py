@@ -11,15 +11,16 @@ from simc_core.controllers.forms import IdealPid
 from simc_core.errors import OutOfDomain
 from simc_core.plants.models import IntegratingDelay, Model
 from simc_core.rules.domain import dead_time, kind_of, lag
+from simc_core.wording import said
 
 
 def lambda_tuning(model: Model, kind: str = "PI", lambda_: float | None = None) -> IdealPid:
     """PI settings of the module docstring; lambda_ > 0 in the user's time unit, by default tau1, or 3 theta."""
-    rule = "Lambda"
+    rule = said("Lambda")
     kind_of(kind, ("PI",), rule)
     if isinstance(model, IntegratingDelay):
         if model.tau2:
-            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, found {model.tau2:g}")
+            raise OutOfDomain(said("tau2 must be 0 for the rule {rule}, found {tau2:g}", rule=rule, tau2=model.tau2))
         if lambda_ is None:
             lambda_ = 3 * dead_time(model.theta, rule)
         time = checks.positive_time("lambda_", lambda_)

@@ -8,11 +8,12 @@ from simc_core import checks
 from simc_core.controllers.forms import IdealPid
 from simc_core.plants.models import Model
 from simc_core.rules.domain import dead_time, first_order, kind_of, positive
+from simc_core.wording import said
 
 
 def lee_1998(model: Model, kind: str = "PID", lambda_: float | None = None) -> IdealPid:
     """PID settings in ideal form; lambda_ > 0 in the user's time unit, by default theta. [LPLB98]"""
-    rule = "Lee et al. 1998"
+    rule = said("Lee et al. 1998")
     kind_of(kind, ("PID",), rule)
     model = first_order(model, rule)
     k, theta, tau1 = model.k, dead_time(model.theta, rule), model.tau1

@@ -14,11 +14,12 @@ from simc_core.plants.plant import Plant
 from simc_core.plants.taylor import taylor
 from simc_core.rules.domain import kind_of, positive
 from simc_core.rules.self_regulating import self_regulating
+from simc_core.wording import said
 
 
 def magnitude_optimum(plant: Plant, kind: str = "PI") -> IdealPid:
     """The first two derivatives of |T|^2 with respect to omega^2 vanish at 0. For self-regulating plants. [K54]"""
-    rule = "magnitude optimum"
+    rule = said("magnitude optimum")
     kind_of(kind, ("PI",), rule)
     A = taylor(self_regulating(plant, rule), 4) * (1, -1, 1, -1) / plant.k
     below = positive("A1 A2 - A0 A3", float(A[1] * A[2] - A[0] * A[3]), rule)
@@ -28,10 +29,16 @@ def magnitude_optimum(plant: Plant, kind: str = "PI") -> IdealPid:
 
 def symmetrical_optimum(plant: Plant, kind: str = "PI") -> IdealPid:
     """tau is the sum of all small times: lags and dead time less zeros. For plants with one integrator. [K54]"""
-    rule = "symmetrical optimum"
+    rule = said("symmetrical optimum")
     kind_of(kind, ("PI",), rule)
     if plant.integrators != 1:
-        raise OutOfDomain(f"integrators must be 1 for the rule {rule}, found {plant.integrators}")
+        raise OutOfDomain(
+            said(
+                "integrators must be 1 for the rule {rule}, found {integrators}",
+                rule=rule,
+                integrators=plant.integrators,
+            )
+        )
     rest = Plant(plant.k, plant.theta, plant.lags, plant.leads, 0, plant.lag_pairs, plant.lead_pairs)
     k, slope = taylor(self_regulating(rest, rule), 2)
     tau = positive("tau", float(-slope / k), rule)
@@ -40,7 +47,7 @@ def symmetrical_optimum(plant: Plant, kind: str = "PI") -> IdealPid:
 
 def schaedel(plant: Plant, kind: str = "PI") -> IdealPid:
     """For self-regulating plants with real poles, PI. [SCH97]"""
-    rule = "Schaedel PI"
+    rule = said("Schaedel PI")
     kind_of(kind, ("PI",), rule)
     _, a1, a2 = taylor(self_regulating(plant, rule), 3) / plant.k
     T1 = positive("T1", float(-a1), rule)

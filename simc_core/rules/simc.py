@@ -30,6 +30,7 @@ from simc_core.plants.models import (
 )
 from simc_core.wording import said
 
+TIGHT = said("tight")
 A_THETA_LIMIT = 0.5  # the rule for unstable poles ends here; the plant itself can be stabilised up to a theta = 1
 MULTIPLES = (1.0, 1.5, 2.0, 3.0)
 SAME_TAU_C = 1e-6  # relative; a tau_c that came through a link's decimal text still counts as theta
@@ -116,7 +117,7 @@ def tau_c_presets(model: Model) -> dict[str, float]:
     {'tight': 1.0, 'aggressive': 2.0, 'moderate': 20.0, 'conservative': 200.0}
     """
     if isinstance(model, UnstableDelay):
-        return {"tight": model.theta} if model.theta else {}
+        return {TIGHT: model.theta} if model.theta else {}
     match model:
         case FirstOrderDelay() | SecondOrderDelay():
             tau1 = model.tau1
@@ -125,10 +126,10 @@ def tau_c_presets(model: Model) -> dict[str, float]:
         case _:
             tau1 = 0.0
     presets = {
-        "tight": model.theta,
-        "aggressive": max(0.1 * tau1, 0.8 * model.theta),
-        "moderate": max(tau1, 8 * model.theta),
-        "conservative": max(10 * tau1, 80 * model.theta),
+        TIGHT: model.theta,
+        said("aggressive"): max(0.1 * tau1, 0.8 * model.theta),
+        said("moderate"): max(tau1, 8 * model.theta),
+        said("conservative"): max(10 * tau1, 80 * model.theta),
     }
     return {name: tau_c for name, tau_c in presets.items() if tau_c > 0}
 

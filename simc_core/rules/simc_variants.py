@@ -12,6 +12,7 @@ from simc_core.controllers.forms import SeriesPid
 from simc_core.errors import OutOfDomain
 from simc_core.plants.models import IntegratingDelay, Model
 from simc_core.rules.domain import dead_time, first_order, kind_of
+from simc_core.wording import said
 
 
 def improved_simc(model: Model, kind: str = "PI", tau_c: float | None = None) -> SeriesPid:
@@ -19,7 +20,7 @@ def improved_simc(model: Model, kind: str = "PI", tau_c: float | None = None) ->
 
     tau_c > 0 in the user's time unit, by default theta. For k' e^{-theta s}/s it is SIMC. [SG12]
     """
-    rule = "improved SIMC"
+    rule = said("improved SIMC")
     kind_of(kind, ("PI",), rule)
     k, theta, tau1 = _gain_delay_lag(model, rule)
     q = theta + (theta if tau_c is None else checks.positive_time("tau_c", tau_c))
@@ -35,7 +36,7 @@ def isimc(model: Model, kind: str = "PID", tau_c: float | None = None) -> Series
     tau_c > 0 in the user's time unit, by default theta/2. For pure dead time what is left is (tau_D s + 1)/(k q s),
     a PI controller. [GS18]
     """
-    rule = "iSIMC"
+    rule = said("iSIMC")
     kind_of(kind, ("PID",), rule)
     k, theta, tau1 = _gain_delay_lag(model, rule)
     q = theta + (theta / 2 if tau_c is None else checks.positive_time("tau_c", tau_c))
@@ -51,7 +52,7 @@ def _gain_delay_lag(model: Model, rule: str) -> tuple[float, float, float | None
     """k, theta, tau1 of a first-order model; k', theta, None of an integrating one."""
     if isinstance(model, IntegratingDelay):
         if model.tau2:
-            raise OutOfDomain(f"tau2 must be 0 for the rule {rule}, found {model.tau2:g}")
+            raise OutOfDomain(said("tau2 must be 0 for the rule {rule}, found {tau2:g}", rule=rule, tau2=model.tau2))
         return model.k_prime, dead_time(model.theta, rule), None
     model = first_order(model, rule)
     return model.k, dead_time(model.theta, rule), model.tau1

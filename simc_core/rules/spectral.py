@@ -11,20 +11,25 @@ from simc_core.controllers.forms import SeriesPid
 from simc_core.errors import OutOfDomain
 from simc_core.plants.models import Model, SecondOrderDelay
 from simc_core.rules.domain import dead_time, in_words, kind_of, lag
+from simc_core.wording import said
 
 
 def spectral(model: Model, kind: str = "PI", Ki: float | None = None) -> SeriesPid:
     """Settings of the module docstring. Ki in input units per output unit and time; by default 1/(2 k theta)."""
-    rule = "pole cancelling"
+    rule = said("pole cancelling")
     kind_of(kind, ("PI", "PID"), rule)
     if kind == "PID":
         if not isinstance(model, SecondOrderDelay):
             raise OutOfDomain(
-                f"model must be a second-order one with dead time for the rule {rule}, found {in_words(model)}"
+                said(
+                    "model must be a second-order one with dead time for the rule {rule}, found {model}",
+                    rule=rule,
+                    model=in_words(model),
+                )
             )
         k, T1, T2 = model.k, model.tau1, model.tau2
         if T1 == 0:
-            raise OutOfDomain(f"tau1 must be > 0 for the rule {rule}, found 0")
+            raise OutOfDomain(said("tau1 must be > 0 for the rule {rule}, found 0", rule=rule))
     else:
         first = lag(model, rule)
         k, T1, T2 = first.k, first.tau1, 0.0

@@ -9,18 +9,19 @@ no overshoot              PID Ku/5, Pu/2, Pu/3
 from simc_core.controllers.forms import IdealPid
 from simc_core.plants.ultimate_point import Ultimate
 from simc_core.rules.domain import kind_of
+from simc_core.wording import said
 
 
 def tyreus_luyben(point: Ultimate, kind: str = "PI") -> IdealPid:
     """For integrating and lag-dominant processes. [TL92]"""
-    kind_of(kind, ("PI", "PID"), "Tyreus-Luyben")
+    kind_of(kind, ("PI", "PID"), said("Tyreus-Luyben"))
     Ku, Pu = point.Ku, point.Pu
     return IdealPid(Ku / 3.2, 2.2 * Pu) if kind == "PI" else IdealPid(Ku / 2.2, 2.2 * Pu, Pu / 6.3)
 
 
 def pessen(point: Ultimate, kind: str = "PID") -> IdealPid:
     """Pessen's integral rule: bolder than Ziegler and Nichols in all three actions."""
-    kind_of(kind, ("PID",), "Pessen")
+    kind_of(kind, ("PID",), said("Pessen"))
     return IdealPid(0.7 * point.Ku, 0.4 * point.Pu, 0.15 * point.Pu)
 
 

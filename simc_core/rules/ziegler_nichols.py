@@ -13,13 +13,14 @@ from simc_core.controllers.forms import IdealPid
 from simc_core.plants.models import Model
 from simc_core.plants.ultimate_point import Ultimate
 from simc_core.rules.domain import kind_of, reaction_curve
+from simc_core.wording import said
 
 KINDS = ("P", "PI", "PID")
 
 
 def zn_step(model: Model, kind: str = "PI") -> IdealPid:
     """Settings from the step response. Recommended: theta/tau1 between 0.1 and 1. [ZN42]"""
-    rule = "Ziegler-Nichols, step response"
+    rule = said("Ziegler-Nichols, step response")
     kind_of(kind, KINDS, rule)
     a, theta, _ = reaction_curve(model, rule)
     return {
@@ -31,7 +32,7 @@ def zn_step(model: Model, kind: str = "PI") -> IdealPid:
 
 def zn_ultimate(point: Ultimate, kind: str = "PI") -> IdealPid:
     """Settings from the ultimate point. [ZN42]"""
-    kind_of(kind, KINDS, "Ziegler-Nichols, ultimate point")
+    kind_of(kind, KINDS, said("Ziegler-Nichols, ultimate point"))
     Ku, Pu = point.Ku, point.Pu
     return {
         "P": IdealPid(0.5 * Ku, math.inf),

@@ -14,6 +14,7 @@ from simc_core.errors import NotStable
 from simc_core.loops.loop import Loop
 from simc_core.sensitivity.log_response import FactoredResponse, sensitivities
 from simc_core.sensitivity.search_grid import search_grid
+from simc_core.wording import said
 
 LOG_OMEGA_PRECISION = 1e-12
 
@@ -25,7 +26,7 @@ def delay_bound(loop: Loop) -> float:
     Raises NotStable.
     """
     if stability(loop).verdict != "stable":
-        raise NotStable("a bound for dead-time errors exists for a stable loop only, found one that is not")
+        raise NotStable(said("a bound for dead-time errors exists for a stable loop only, found one that is not"))
     response = FactoredResponse(loop.L)
     gain, power = response.at_infinity
     last = abs(gain) if power == 0 else 0.0

@@ -14,6 +14,7 @@ from simc_core.plants.plant import Plant
 from simc_core.plants.ultimate_point import Ultimate
 from simc_core.sensitivity.crossings import search
 from simc_core.sensitivity.log_response import FactoredResponse
+from simc_core.wording import said
 
 MOST_LIMITS = 40  # that are tried
 APART = 1e-9  # relative; two crossings with gains this close are one limit
@@ -60,8 +61,10 @@ def ultimate(plant: Plant) -> Ultimate:
                 return Ultimate(sign * gain, 2 * math.pi / omega)
             below = gain
     raise NotReducible(
-        "an ultimate gain must exist for this rule, found a plant whose loop with a P controller does not oscillate at "
-        "any gain: take a rule that starts from a model"
+        said(
+            "an ultimate gain must exist for this rule, found a plant whose loop with a P controller does not "
+            "oscillate at any gain: take a rule that starts from a model"
+        )
     )
 
 

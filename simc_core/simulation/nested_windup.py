@@ -22,6 +22,7 @@ from simc_core.simulation.actuator.one_step import ON_GRID, Linear, whole_steps
 from simc_core.simulation.rise import risen
 from simc_core.simulation.several_delays.network import Network, integral_states, network
 from simc_core.simulation.simulate_nested import NestedResponse, horizon
+from simc_core.wording import said
 
 FEWEST_STEPS, MOST_STEPS = 3000, 40_000
 PROTECTIONS = ("none", "inner", "both")
@@ -44,13 +45,19 @@ def limited(
     """
     rest_within(u_min, u_max)
     if protection not in PROTECTIONS:
-        raise InvalidParameter(f"protection must be one of {', '.join(PROTECTIONS)}, found {protection[:20]}")
+        raise InvalidParameter(
+            said(
+                "protection must be one of {protections}, found {protection}",
+                protections=", ".join(PROTECTIONS),
+                protection=protection[:20],
+            )
+        )
     loops = loop.nested if isinstance(loop, CascadeLoop) else loop
     t_end = horizon(loops) if t_end is None else t_end
     system = network(loops)
     if system.Fo[len(loops.blocks), 1]:
         raise InvalidParameter(
-            "theta of the innermost block must be > 0 where it passes a jump of u on at once, found 0"
+            said("theta of the innermost block must be > 0 where it passes a jump of u on at once, found 0")
         )
     dt = _step(system, t_end)
     t = dt * np.arange(round(t_end / dt) + 1)
@@ -74,7 +81,14 @@ def _step(system: Network, t_end: float) -> float:
         return t_end / FEWEST_STEPS
     shortest = float(np.min(system.theta))
     if t_end / shortest > MOST_STEPS:
-        raise InvalidParameter(f"t_end must be at most {MOST_STEPS} theta = {MOST_STEPS * shortest:g}, found {t_end:g}")
+        raise InvalidParameter(
+            said(
+                "t_end must be at most {most_steps} theta = {longest:g}, found {t_end:g}",
+                most_steps=MOST_STEPS,
+                longest=MOST_STEPS * shortest,
+                t_end=t_end,
+            )
+        )
     return shortest / whole_steps(FEWEST_STEPS * shortest / t_end)
 
 

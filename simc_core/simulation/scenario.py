@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from simc_core import checks
 from simc_core.errors import InvalidParameter, WrongType
 from simc_core.simulation.actuator.actuation import Actuation
+from simc_core.wording import said
 
 MOST_POINTS = 100_000
 LINEAR = Actuation()
@@ -75,7 +76,7 @@ class Scenario:
         if self.t is not None:
             put(self, "t", instants(self.t))
         if not isinstance(self.actuation, Actuation):
-            raise WrongType(f"actuation must be an Actuation, found {type(self.actuation).__name__}")
+            raise WrongType(said("actuation must be an Actuation, found {what}", what=type(self.actuation).__name__))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -103,7 +104,11 @@ def instants(given: ArrayLike) -> np.ndarray:
     """`given` as increasing instants >= 0, shape (n,). Raises InvalidParameter."""
     t = checks.array("t", given, MOST_POINTS)
     if not np.all(np.isfinite(t)) or t[0] < 0 or np.any(np.diff(t) < 0):
-        raise InvalidParameter(f"t must be finite, >= 0 and increasing, found {t[0]:g} ... {t[-1]:g}")
+        raise InvalidParameter(
+            said("t must be finite, >= 0 and increasing, found {t:g} ... {last:g}", t=t[0], last=t[-1])
+        )
     if t[-1] > checks.LONGEST_TIME:
-        raise InvalidParameter(f"t must be <= {checks.LONGEST_TIME:g}, found {t[-1]:g}")
+        raise InvalidParameter(
+            said("t must be <= {longest_time:g}, found {t:g}", longest_time=checks.LONGEST_TIME, t=t[-1])
+        )
     return t

@@ -13,6 +13,7 @@ from simc_core.simulation.horizon import round_up
 from simc_core.simulation.scenario import Scenario
 from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.superposition import superposed
+from simc_core.wording import said
 
 SETTLED_PART = 0.01  # of the largest value; where a default horizon ends
 FIRST_HORIZON = 2.0  # first horizon, in units of all times of the loops together
@@ -74,12 +75,21 @@ def simulate_nested(loop: NestedLoops, scenario: Scenario) -> NestedResponse:
     """simulate of nested loops. Raises InvalidParameter."""
     if not scenario.actuation.linear:
         raise InvalidParameter(
-            "actuation must be left out for nested loops, whose limits are in simulation/nested_windup.py, "
-            f"found {scenario.actuation}"
+            said(
+                "actuation must be left out for nested loops, whose limits are in simulation/nested_windup.py, "
+                "found {actuation}",
+                actuation=scenario.actuation,
+            )
         )
     if scenario.setpoint_ramp or scenario.disturbance_ramp:
-        given = f"{scenario.setpoint_ramp:g} and {scenario.disturbance_ramp:g}"
-        raise InvalidParameter(f"setpoint_ramp and disturbance_ramp must be 0 for nested loops, found {given}")
+        given = said(
+            "{setpoint_ramp:g} and {disturbance_ramp:g}",
+            setpoint_ramp=scenario.setpoint_ramp,
+            disturbance_ramp=scenario.disturbance_ramp,
+        )
+        raise InvalidParameter(
+            said("setpoint_ramp and disturbance_ramp must be 0 for nested loops, found {given}", given=given)
+        )
     N = len(loop.blocks)
     heights = np.zeros(1 + N)
     heights[[0, 1, N]] = scenario.setpoint, scenario.disturbance2, scenario.disturbance  # of one loop there is one d

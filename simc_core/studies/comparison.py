@@ -23,6 +23,7 @@ from simc_core.sensitivity.margins import margins_many
 from simc_core.studies.equal_robustness import HIGHEST, at_equal_robustness, detunable, filtered, peak_of
 from simc_core.studies.optimum import FILTER, front, scale_of, search_for
 from simc_core.studies.tune import rule_of, subject_of
+from simc_core.wording import said
 
 EQUAL_PEAKS = 1e-5  # logarithms of peaks that are one
 NEAR_OPTIMUM = 0.03  # behind the optimum: rules so near are compared with one of their own peak, not with the front
@@ -104,7 +105,13 @@ def comparison(
     for key in keys:
         rule_of(key)
     if criterion not in CRITERIA:
-        raise InvalidParameter(f"criterion must be one of {', '.join(CRITERIA)}, found {criterion!r}")
+        raise InvalidParameter(
+            said(
+                "criterion must be one of {criteria}, found {criterion!r}",
+                criteria=", ".join(CRITERIA),
+                criterion=criterion,
+            )
+        )
     return _rows(_Judge(plant, M, FILTER * scale_of(plant) if tau_F is None else tau_F, criterion), kinds, keys)
 
 
@@ -165,7 +172,7 @@ class _Judge:
                 found = at_equal_robustness(key, self.plant, kind, self.M, self.tau_F)
                 published = found.published_Ms
                 if found.controller is None or found.factor is None:
-                    return _none(key, kind, published, f"Ms = {self.M:g} is not reachable by this rule")
+                    return _none(key, kind, published, said("Ms = {Ms:g} is not reachable by this rule", Ms=self.M))
                 controller, factor = found.controller, found.factor
             return self._row(key, kind, controller, published, factor, self._recommended(key, kind))
         except SimcError as refused:
@@ -174,7 +181,7 @@ class _Judge:
     def _row(self, key: str, kind: str, controller: Controller, published: float, factor: float, honoured: bool) -> Row:
         judged = self._judge([controller])[0]
         if judged.performance is None:
-            return replace(_none(key, kind, published, "the loop is not stable"), controller=controller)
+            return replace(_none(key, kind, published, said("the loop is not stable")), controller=controller)
         if isinstance(judged.performance, SimcError):
             raise judged.performance
         both = judged.performance

@@ -28,6 +28,7 @@ from simc_core.simulation.one_delay.march import march
 from simc_core.simulation.one_delay.unit_responses import UnitResponses
 from simc_core.simulation.scenario import instants
 from simc_core.simulation.superposition import ramp_response
+from simc_core.wording import said
 
 MOST_TUNINGS = 10_000
 MOST_VALUES = 20_000_000  # numbers in the arrays of a sweep: 160 MB
@@ -144,7 +145,11 @@ def sweep(
     values = len(speeds) * (4 * len(times) + 2 * len(at))
     if values > MOST_VALUES:
         raise InvalidParameter(
-            f"len(tau_c) (4 len(t) + 2 len(omega)) must be <= {MOST_VALUES}, numbers of one sweep, found {values}"
+            said(
+                "len(tau_c) (4 len(t) + 2 len(omega)) must be <= {most_values}, numbers of one sweep, found {values}",
+                most_values=MOST_VALUES,
+                values=values,
+            )
         )
     controllers = tuple(
         settings_of(rule, model, each).with_filter(filter_ratio).with_weight(b) for each in speeds.tolist()
@@ -246,5 +251,11 @@ def _at(course: UnitResponses, t: np.ndarray, disturbance_time: float, ramps: tu
 def _tau_c(given: ArrayLike) -> np.ndarray:
     values = np.atleast_1d(np.asarray(given, dtype=float))
     if values.ndim != 1 or not 1 <= values.size <= MOST_TUNINGS:
-        raise InvalidParameter(f"tau_c must be a list of 1 to {MOST_TUNINGS} times, found shape {values.shape}")
+        raise InvalidParameter(
+            said(
+                "tau_c must be a list of 1 to {most_tunings} times, found shape {shape}",
+                most_tunings=MOST_TUNINGS,
+                shape=values.shape,
+            )
+        )
     return np.array([checks.positive_time("tau_c", each) for each in values.tolist()])

@@ -18,6 +18,7 @@ import numpy as np
 from simc_core.errors import InvalidParameter
 from simc_core.plants.models import Model
 from simc_core.rules.simc_family import lag_of
+from simc_core.wording import said
 
 PER_DECADE = 7
 STENCIL = 4
@@ -114,7 +115,14 @@ def smallest(judge: Callable[[float], float], limit: float, low: float, high: fl
             break
         best, below = min(best, math.inf if math.isnan(value) else value), above
     else:
-        raise InvalidParameter(f"Ms must be >= {best:.4g}, the least up to tau_c = {high:.4g}, found {limit:g}")
+        raise InvalidParameter(
+            said(
+                "Ms must be >= {best:.4g}, the least up to tau_c = {high:.4g}, found {limit:g}",
+                best=best,
+                high=high,
+                limit=limit,
+            )
+        )
     below = min(below, above)
     while above / below > 1 + NEAR:
         middle = math.sqrt(below * above)

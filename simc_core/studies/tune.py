@@ -9,6 +9,7 @@ from simc_core.plants.ultimate_point import Ultimate
 from simc_core.reduction.half_rule import reduced_model
 from simc_core.rules.catalogue import RULES, Rule
 from simc_core.sensitivity.ultimate import ultimate
+from simc_core.wording import joined, said
 
 SECOND_ORDER = ("simc", "spectral")  # their PID needs a second lag
 
@@ -63,7 +64,7 @@ def tune(
 def rule_of(key: str) -> Rule:
     """The rule of that name."""
     if key not in RULES:
-        raise InvalidParameter(f"rule must be one of {', '.join(RULES)}, found {key!r}")
+        raise InvalidParameter(said("rule must be one of {rules}, found {key!r}", rules=", ".join(RULES), key=key))
     return RULES[key]
 
 
@@ -71,8 +72,13 @@ def knob_of(rule: Rule, knobs: dict[str, float | None]) -> float | None:
     """The rule's own parameter among the keywords, None if it is left to the rule."""
     for name in knobs:
         if name != rule.knob:
-            known = f"only {rule.knob}" if rule.knob else "no parameter of its own"
-            raise InvalidParameter(f"{rule.title} has {known}, found {name}")
+            if rule.knob:
+                raise InvalidParameter(
+                    said("{title} has only {knob}, found {name}", title=rule.title, knob=rule.knob, name=name)
+                )
+            raise InvalidParameter(
+                said("{title} has no parameter of its own, found {name}", title=rule.title, name=name)
+            )
     if rule.knob is None or knobs.get(rule.knob) is None:
         return None
     return checks.real(rule.knob, knobs[rule.knob])
@@ -81,10 +87,21 @@ def knob_of(rule: Rule, knobs: dict[str, float | None]) -> float | None:
 def subject_of(rule: Rule, subject: Model | Ultimate | Plant, kind: str) -> Model | Ultimate | Plant:
     """What the rule needs, made from what is there."""
     if kind not in rule.kinds:
-        raise OutOfDomain(f"kind must be {' or '.join(rule.kinds)} for the rule {rule.title}, found {kind!r}")
+        raise OutOfDomain(
+            said(
+                "kind must be {kinds} for the rule {title}, found {kind!r}",
+                kinds=joined(rule.kinds, said(" or ")),
+                title=rule.title,
+                kind=kind,
+            )
+        )
     if isinstance(subject, Ultimate):
         if rule.needs != "ultimate":
-            raise OutOfDomain(f"subject must be a model or a plant for the rule {rule.title}, found an ultimate point")
+            raise OutOfDomain(
+                said(
+                    "subject must be a model or a plant for the rule {title}, found an ultimate point", title=rule.title
+                )
+            )
         return subject
     if isinstance(subject, Model):
         plant = subject.plant
@@ -92,7 +109,10 @@ def subject_of(rule: Rule, subject: Model | Ultimate | Plant, kind: str) -> Mode
         plant = subject
     else:
         raise InvalidParameter(
-            f"subject must be a reduced model, an ultimate point or a plant, found {type(subject).__name__}"
+            said(
+                "subject must be a reduced model, an ultimate point or a plant, found {what}",
+                what=type(subject).__name__,
+            )
         )
     if rule.needs == "ultimate":
         return ultimate(plant)
@@ -109,5 +129,12 @@ def _of_kind(
     """The controller, which must be of the kind asked for: of SIMC the model decides it."""
     found = "PI" if isinstance(controller, IController) or not controller.tau_D else "PID"
     if rule.key in SECOND_ORDER and kind != found:
-        raise OutOfDomain(f"kind must be {found} for the rule {rule.title} and this model, found {kind!r}")
+        raise OutOfDomain(
+            said(
+                "kind must be {found} for the rule {title} and this model, found {kind!r}",
+                found=found,
+                title=rule.title,
+                kind=kind,
+            )
+        )
     return controller

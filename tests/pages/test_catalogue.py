@@ -123,12 +123,13 @@ def test_a_template_that_is_put_together_is_refused(call):
 
 
 def test_javascript_is_read():
-    head = 'import { text, words } from "../kit/words.js";\n'
-    found = extraction.in_script(f'{head}words("Skip");\nwords("{{a}} \\"of\\" {{b}}", {{ a, b }});', "a.js")
+    head = 'import { numeral, said } from "../kit/words.js";\n'
+    found = extraction.in_script(f'{head}said("Skip");\nsaid("{{a}} \\"of\\" {{b}}", {{ a, b }});', "a.js")
     assert [each.id for each in found] == ["Skip", '{a} "of" {b}']
-    assert list(extraction.in_script('this.words("Skip")', "a.js")) == []
+    assert [each.id for each in extraction.in_script(f'{head}said(\n"a " +\n"b",\n);', "a.js")] == ["a b"]
+    assert list(extraction.in_script('said("Skip")', "a.js")) == []
     with pytest.raises(extraction.NotPlain, match=r"a.js, line 2"):
-        list(extraction.in_script(f"{head}words(`of ${{a}}`)", "a.js"))
+        list(extraction.in_script(f"{head}said(`of ${{a}}`)", "a.js"))
 
 
 def test_every_template_can_be_filled():

@@ -12,12 +12,15 @@ from scipy.interpolate import BarycentricInterpolator
 
 from pages.common.live.kit.packing import pack
 from pages.common.live.modules import bundled
+from pages.common.live.spoken import spoken
 from simc_core import Loop, Plant, margins
 from simc_core.cascade.by_simc import simc_cascade
 from simc_core.loops.frequency_grid import omega_grid
 from simc_core.studies.tau_table import first_rows, stencil
+from tests.pages.wrapped import BRACKETS, offer_brackets
 
 SCRIPT = Path(__file__).with_name("live_parts.test.mjs")
+KIT = Path(__file__).parents[2] / "pages" / "common" / "live" / "kit"
 NAMES = ("Ms", "GM", "PM_deg", "delay_margin")
 
 
@@ -100,3 +103,22 @@ def test_modules_in_one_text_do_what_the_modules_do(tmp_path, shape):
     script = f'import found from "{one.as_uri()}"; console.log(JSON.stringify(found));'
     run = subprocess.run(["node", "--input-type=module", "-e", script], capture_output=True, text=True, timeout=60)
     assert json.loads(run.stdout) == [20, 3, 1], run.stderr
+
+
+def test_scripts_speak_the_language_that_stands_before_them(tmp_path, monkeypatch):
+    offer_brackets(monkeypatch)
+    (tmp_path / "main.js").write_text(
+        f'import {{ plain, text }} from "{KIT}/format.js";\nimport {{ listed, said }} from "{KIT}/words.js";\n\n'
+        'export default [said("Key {n}", { n: text(1.5) }), said("not ours {n}", { n: 2 }), text(-1234.5, 5), '
+        "plain(0.5), text(1e-9), listed([text(0.5), text(2)])];\n"
+    )
+    one = tmp_path / "one.mjs"
+    found = {}
+    for language in ("en", BRACKETS):
+        one.write_text(spoken(language) + bundled(tmp_path / "main.js"))
+        script = f'import found from "{one.as_uri()}"; console.log(JSON.stringify(found));'
+        run = subprocess.run(["node", "--input-type=module", "-e", script], capture_output=True, text=True, timeout=60)
+        assert not run.stderr
+        found[language] = json.loads(run.stdout)
+    assert found["en"] == ["Key 1.5", "not ours 2", "−1234.5", "0.5", "1e−9", "0.5, 2"]
+    assert found[BRACKETS] == ["⟦Key 1,5⟧", "not ours 2", "−1234,5", "0.5", "1e−9", "0,5; 2"]

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from pages.common.rules import words
+from pages.common.rules import remarks
 from pages.common.rules.plane import ground
 from pages.common.rules.table import Question, question_of, rows_of
 from pages.common.session.compared import OPTIMAL, USUAL, Compared
@@ -218,8 +218,8 @@ def test_the_point_has_a_place_on_every_plant(plant):
 
 
 def test_each_rule_has_a_word_and_each_misprint_its_rule():
-    assert words.MADE_FOR.keys() == RULES.keys() | {OPTIMAL}
-    assert words.IN_CIRCULATION.keys() <= RULES.keys()
+    assert remarks.MADE_FOR.keys() == RULES.keys() | {OPTIMAL}
+    assert remarks.IN_CIRCULATION.keys() <= RULES.keys()
 
 
 def test_rows_are_made_once_for_all_who_ask():

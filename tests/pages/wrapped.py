@@ -36,6 +36,7 @@ WORD = re.compile(r"[^\W\d_]{3,}")
 # No words of English: symbols, abbreviations of the field, names of formats.
 SYMBOLS = {
     "PID",
+    "Mst",
     "SIMC",
     "IAE",
     "exp",
@@ -47,7 +48,6 @@ SYMBOLS = {
     "lim",
     "rad",
     "PSB",
-    "QR",
     "CSV",
     "JSON",
     "SVG",
@@ -58,7 +58,7 @@ REFERENCES = [
 ]
 ADDRESS = re.compile(r"https\\?://[^\s\"\])]+")
 NAME_OF_LOOP = re.compile(r"Lesson \w+")  # of a lesson, which links hold
-SOURCE = re.compile(r"\[[A-Z]{2,4}\d{2}[^\]]*\]")
+SOURCE = re.compile(r"\[[A-Z]{2,4}\d{2}[^\]]*\]|\b[A-Z]{3,4}\d{2}\b")
 
 
 class Brackets(catalogues.Catalogue):
@@ -87,10 +87,11 @@ def speak_brackets(monkeypatch) -> None:
 
 
 def left_in_english(app: AppTest) -> list[str]:
-    """What the page shows outside brackets, but for symbols, numbers, foreign text and formulas."""
+    """What the page shows outside brackets, but for symbols, numbers, foreign text, formulas, names of languages."""
     found = []
     for place, text in visible(app):
-        bare = "" if text in FORMULAS or NAME_OF_LOOP.fullmatch(text) else outside(text)
+        known = text in FORMULAS or text in catalogues.OFFERED.values() or NAME_OF_LOOP.fullmatch(text)
+        bare = "" if known else outside(text)
         if any(word not in SYMBOLS for word in WORD.findall(bare)) or re.search(r"\d\.\d", bare):
             found.append(f"{place}: {text}")
     return found
@@ -156,8 +157,9 @@ def _of_figure(node, name: str = "") -> Iterator[tuple[str, str]]:
         if name in IN_FIGURES:
             yield name, node
     elif isinstance(node, dict):
+        hidden = {"template"} if "%{customdata" in node.get("hovertemplate", "") else {"template", "customdata"}
         for inner, value in node.items():
-            if inner != "template":
+            if inner not in hidden:
                 yield from _of_figure(value, inner)
     elif isinstance(node, list):
         for value in node:

@@ -4,13 +4,14 @@ import math
 
 import numpy as np
 import pytest
+from scipy.stats import qmc
 
 from simc_core import Loop, Plant, simc
 from simc_core.certificate.verdict import stability
 from simc_core.errors import InvalidParameter
 from simc_core.plants.models import FirstOrderDelay
 from simc_core.sensitivity.margins import margins
-from simc_core.studies.plant_family import changed, robustness
+from simc_core.studies.plant_family import _latin_hypercube, changed, robustness
 from simc_core.studies.tuned import tuned
 from tests.oracles.random_plants import random_plants
 
@@ -26,6 +27,11 @@ def test_corners_are_all_combinations_and_samples_lie_between_them():
     assert np.all(np.abs(parts) <= 0.3)
     strata = np.sort(np.floor((parts / 0.3 + 1) / 2 * len(parts)), axis=0)
     np.testing.assert_array_equal(strata, np.arange(len(parts))[:, None] * np.ones((1, 3)))  # one in each stratum
+
+
+@pytest.mark.parametrize(("n", "d"), [(1, 1), (50, 3), (200, 2)])
+def test_samples_are_those_of_scipy(n, d):
+    assert np.array_equal(_latin_hypercube(n, d, 7), qmc.LatinHypercube(d, seed=7).random(n))
 
 
 def test_the_same_seed_gives_the_same_plants():

@@ -3,15 +3,19 @@
 import re
 from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from pathlib import Path
 
 import streamlit as st
 
 from pages.common.live.kit.packing import pack
 from pages.common.live.modules import bundled
+from pages.common.live.spoken import spoken
 from pages.common.parts.qr import qr_svg
 from pages.common.session import state
 from pages.common.session.lecture import asked_lecture
+from pages.common.words import language
+from pages.common.words.catalogues import ENGLISH
 from simc_core.figures import palette
 
 HERE = Path(__file__).parent
@@ -19,21 +23,40 @@ WORD = re.compile("[a-z0-9_]{1,20}")
 UPLOT = HERE / "vendor" / "uplot.min.js"
 
 
-def _instrument(name: str):
+@cache
+def _instrument(name: str, language: str):
+    """One for each language."""
     html = _text(HERE / "kit" / "live.html")
     css = palette.css_variables(".live") + _text(
         UPLOT.with_suffix(".css"), HERE / "kit" / "live.css", HERE / "kit" / "lecture.css"
     )
-    js = _text(UPLOT) + bundled(HERE / name / "main.js")
-    return st.components.v2.component(f"simc_live_{name}", html=html, css=css, js=js)
+    js = _text(UPLOT) + spoken(language) + bundled(HERE / name / "main.js")
+    return st.components.v2.component(_in_language(f"simc_live_{name}", language), html=html, css=css, js=js)
 
 
 def _text(*files: Path) -> str:
     return "\n".join(file.read_text(encoding="utf-8") for file in files)
 
 
-_instruments = {name: _instrument(name) for name in ("tuning", "cascade", "hand", "plane")}
-message = st.components.v2.component("simc_live_message", html="<span></span>", js=bundled(HERE / "kit" / "message.js"))
+@cache
+def _message(language: str):
+    js = spoken(language) + bundled(HERE / "kit" / "message.js")
+    return st.components.v2.component(_in_language("simc_live_message", language), html="<span></span>", js=js)
+
+
+def _in_language(name: str, language: str) -> str:
+    """Another language is another instrument, which is told everything anew."""
+    return name if language == ENGLISH else f"{name}_{language}"
+
+
+for each in ("tuning", "cascade", "hand", "plane"):
+    _instrument(each, ENGLISH)
+_message(ENGLISH)
+
+
+def message(key: str, data: bytes) -> None:
+    """Numbers for an instrument of this page."""
+    _message(language())(key=_in_language(key, language()), data=data)
 
 
 def staged(name: str, panels: Sequence[str], figures: Sequence[str], view: str) -> None:
@@ -57,7 +80,10 @@ def show(name: str, key: str, data: bytes, take: Callable[[Mapping], None]) -> i
         else:
             take(release)
 
-    asked = _instruments[name](key=key, data=data, on_release_change=lambda: heard(state.widget(key)["release"]))
+    own = _in_language(key, language())
+    asked = _instrument(name, language())(
+        key=own, data=data, on_release_change=lambda: heard(state.widget(own)["release"])
+    )
     if asked.release and int(asked.release["n"]) != state.memory(f"{key}_answers", int):
         heard(asked.release)
         st.rerun()

@@ -6,7 +6,7 @@ value stays in use.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
@@ -16,7 +16,7 @@ from pages.common.parts.symbols import symbols
 from pages.common.parts.units import unit_of, with_unit
 from pages.common.session import links, state
 from pages.common.session.fields import PLACES
-from pages.common.words import numeral, words
+from pages.common.words import language, numeral, words
 from simc_core.errors import SimcError
 from simc_core.numbers import read_number
 from simc_core.wording import Text
@@ -34,6 +34,15 @@ class _Typed:
     text: str
     value: float | None
     why: str = ""
+    language: str = field(default_factory=language)
+
+    def retell(self, why: str) -> None:
+        """In another language: the reason anew, and a plain number with its decimal sign."""
+        if self.language == language():
+            return
+        self.language, self.why = language(), why
+        if self.text.replace(",", ".") == links.number_text(self.value):
+            self.text = number_text(self.value)
 
 
 def number_field(
@@ -73,8 +82,10 @@ def number_field(
         Of st.text_input: help, placeholder, width, label_visibility.
     """
     typed = state.memory(f"number_{key}", lambda: _Typed(number_text(value), value))
-    if typed.value != value or (typed.why and not _refusal(label, typed.text, check, optional)):
+    refusal = typed.why and _refusal(label, typed.text, check, optional)
+    if typed.value != value or (typed.why and not refusal):
         typed.text, typed.value, typed.why = number_text(value), value, ""
+    typed.retell(refusal)
     state.set_widget(key, typed.text)
     place = place or st.container(width=options.get("width", "stretch"))
     shown = with_unit(label, unit)

@@ -18,6 +18,7 @@ UNITS = {
     "Kd": "OP time/PV",
     **dict.fromkeys(("tau_I", "tau_D", "tau_F"), "time"),
 }
+ACTION = {"reverse": said("reverse action"), "direct": said("direct action")}
 ACTIONS = {"reverse": said("The output falls when PV rises."), "direct": said("The output rises when PV rises.")}
 
 

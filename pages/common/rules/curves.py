@@ -15,9 +15,10 @@ from simc_core.optimal.under_ms import Optimum, criterion_of
 from simc_core.studies.comparison import Row
 from simc_core.studies.optimum import front, scale_of
 from simc_core.studies.simc_path import simc_path
+from simc_core.wording import said
 
 BOTH = KINDS[:2]
-PRESENT_NAME = "my design"
+PRESENT_NAME = said("my design")
 
 
 def fronts(question: Question) -> list[Path]:
@@ -27,7 +28,7 @@ def fronts(question: Question) -> list[Path]:
         best = _front(question, kind)
         if best:
             x = np.array([max(each.Ms, each.Mt) for each in best])
-            found.append(Path(f"best {kind}", kind, x, np.array([each.value for each in best])))
+            found.append(Path(said("best {kind}", kind=kind), kind, x, np.array([each.value for each in best])))
     return found
 
 
@@ -37,7 +38,7 @@ def simc_over_tau_c(question: Question) -> list[Path]:
     for kind in question.kinds:
         path = simc_path(question.plant, kind, question.criterion, question.tau_F)
         if path.peak.size:
-            found.append(Path(f"SIMC {kind} over τc", kind, path.peak, path.value))
+            found.append(Path(said("SIMC {kind} over τc", kind=kind), kind, path.peak, path.value))
     return found
 
 
@@ -69,14 +70,14 @@ def trade_off_point(question: Question, study: Study, name: str = PRESENT_NAME) 
 def best_settings(question: Question) -> Path:
     """Kc and tau_I of the best PI controllers."""
     pairs = [plane_pair(each.controller) for each in _front(question, "PI")]
-    return _settings_path("best PI", [each for each in pairs if each])
+    return _settings_path(said("best PI"), [each for each in pairs if each])
 
 
 def simc_settings(question: Question) -> Path:
     """Kc and tau_I of SIMC over tau_c."""
     path = simc_path(question.plant, "PI", question.criterion, question.tau_F)
     pairs = [plane_pair(each) for each in path.controllers]
-    return _settings_path("SIMC over τc", [each for each in pairs if each])
+    return _settings_path(said("SIMC over τc"), [each for each in pairs if each])
 
 
 def plane_points(rows: Sequence[Row]) -> list[Point]:

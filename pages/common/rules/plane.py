@@ -9,8 +9,8 @@ from pages.common.live import Ground
 from pages.common.rules import curves
 from pages.common.rules.table import Question, key_of
 from pages.common.studies.single import Study
+from pages.common.words import number, translated, words
 from simc_core.controllers.forms import IdealPid
-from simc_core.notation import number
 from simc_core.optimal.robust_gains import sign_of_gain
 from simc_core.studies.comparison import Row
 from simc_core.studies.tuning_plane import TuningPlane, tuning_plane
@@ -34,7 +34,9 @@ def ground(question: Question, rows: Sequence[Row], chosen: Row | None, present:
         _limits(ends, size) for ends, size in ((plane.Kc[[0, -1]], abs(form.Kc)), (plane.tau_I[[0, -1]], form.tau_I))
     )
     known = mine and present is not None and curves.plane_pair(present.controller) is not None
-    drawn = _drawn(question, rows, chosen, plane, Kc, tau_I) | {"name": "my settings" if known else "settings to try"}
+    drawn = _drawn(question, rows, chosen, plane, Kc, tau_I) | {
+        "name": words("my settings") if known else words("settings to try")
+    }
     return Ground(question.plant, form, mine, Kc, tau_I, drawn)
 
 
@@ -71,7 +73,7 @@ def _drawn(
         "best": _line(best.x, best.y),
         "path": _line(path.x, path.y),
         "points": [
-            {"key": each.key, "name": each.name, "x": each.x, "y": each.y}
+            {"key": each.key, "name": translated(each.name), "x": each.x, "y": each.y}
             for each in curves.plane_points(rows)
             if math.isfinite(each.x) and math.isfinite(each.y)
         ],

@@ -14,13 +14,14 @@ from pages.common.session.compared import OPTIMAL, PRESENT, USUAL
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
 from pages.common.studies.measures import MEASURES, Measured, values
+from pages.common.words import number, translated, words
 from simc_core import RULES, Loop, Optimum, Performance, Plant, comparison, margins_many, optimal
 from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import SimcError
 from simc_core.metrics.performance import performance_many
-from simc_core.notation import number
 from simc_core.studies.comparison import Row
 from simc_core.studies.optimum import FILTER, scale_of
+from simc_core.wording import Text, said
 
 EQUAL = 1e-4  # relative, to an optimum that is known to some 1e-5
 KEPT = 32  # questions, of all sessions together
@@ -31,7 +32,13 @@ UNITS = {
     "TV load": "OP",
     "high-freq. gain": "OP/PV",
 }
-TEXTS = ("rule", "kind", "in domain", "source", "remark")
+OPTIMUM = said("optimum")
+SHORT = {
+    "chr_setpoint_0": said("CHR, set point, 0 %"),
+    "chr_setpoint_20": said("CHR, set point, 20 %"),
+    "chr_load_0": said("CHR, load, 0 %"),
+    "chr_load_20": said("CHR, load, 20 %"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,9 +114,11 @@ def key_of(row: Row) -> str:
     return f"{row.key}-{row.kind}"
 
 
-def title_of(row: Row) -> str:
+def title_of(row: Row) -> Text:
     """The name of the rule, and the kind of controller."""
-    return f"{'optimum' if row.key == OPTIMAL else RULES[row.key].title}, {row.kind}"
+    if row.key == OPTIMAL:
+        return said("optimum, {kind}", kind=row.kind)
+    return said("{title}, {kind}", title=RULES[row.key].title, kind=row.kind)
 
 
 def value_of(row: Row, criterion: str) -> float:
@@ -155,7 +164,7 @@ def _cells(row: Row, equal: bool, further: dict[str, float]) -> dict:
     Kc, tau_I, tau_D = _settings(row)
     known = {} if not equal else {"as published": row.published_Ms, "F": _none_is_nan(row.factor)}
     return {
-        "rule": title_of(row).rpartition(",")[0].replace("Chien-Hrones-Reswick", "CHR"),
+        "rule": translated(OPTIMUM if row.key == OPTIMAL else SHORT.get(row.key) or RULES[row.key].title),
         "kind": row.kind,
         "Kc": Kc,
         "τI": tau_I,
@@ -169,9 +178,9 @@ def _cells(row: Row, equal: bool, further: dict[str, float]) -> dict:
         "TV load": row.TV,
         "high-freq. gain": row.high_frequency_gain,
         **further,
-        "in domain": "" if row.key == OPTIMAL else "yes" if row.in_domain else "no",
-        "source": "" if row.key == OPTIMAL else RULES[row.key].source.strip("[]"),
-        "remark": row.refusal,
+        "in domain": "" if row.key == OPTIMAL else words("yes") if row.in_domain else words("no"),
+        "source": "" if row.key == OPTIMAL else translated(RULES[row.key].source).strip("[]"),
+        "remark": translated(row.refusal),
     }
 
 

@@ -6,6 +6,7 @@ from pages.common.session.sheet import one_of
 from simc_core import RULES, IController, Plant, SeriesPid, checks
 from simc_core.controllers.forms import Controller
 from simc_core.optimal.criterion import CRITERIA
+from simc_core.wording import said
 
 KINDS = ("PI", "PID", "both")
 PRESENT, OPTIMAL = "", "optimal"  # the plant of the design; the rule that is no rule
@@ -22,24 +23,30 @@ class Usual:
 
 
 USUAL = {
-    "balanced": Usual(Plant(1, 1, (1,)), "lag and dead time alike [SG12]"),
-    "lag": Usual(Plant(1, 1, (8,)), "lag dominant [SG12]"),
-    "slow": Usual(Plant(1, 1, (20,)), "slow lag"),
+    "balanced": Usual(Plant(1, 1, (1,)), said("lag and dead time alike [SG12]")),
+    "lag": Usual(Plant(1, 1, (8,)), said("lag dominant [SG12]")),
+    "slow": Usual(Plant(1, 1, (20,)), said("slow lag")),
     "integrating": Usual(
         Plant(1, 1, integrators=1),
-        "integrating [SG12]; [SK98] examples 3, 8",
+        said("integrating [SG12]; [SK98] examples 3, 8"),
         (SeriesPid(0.5, 8), SeriesPid(1, 2, 0.5)),
     ),
-    "four": Usual(Plant(1, 0, (1, 1, 1, 1)), "four lags"),
-    "two": Usual(Plant(1, 1, (6, 2)), "two lags"),
-    "delay": Usual(Plant(1, 1), "pure dead time [SG12]; [SK98] example 7", (IController(0.5), SeriesPid(0.25, 0.5))),
-    "SK98-4": Usual(Plant(1, 1, integrators=2), "double integrating; [SK98] example 4", (SeriesPid(0.0625, 8, 8),)),
-    "SK98-5a": Usual(Plant(1, 1, (100,)), "slow; [SK98] example 5, tau 100", (SeriesPid(50, 100), SeriesPid(50, 8))),
-    "SK98-5b": Usual(Plant(1, 1, (10,)), "[SK98] example 5, tau 10"),
-    "SK98-5c": Usual(Plant(1, 1, (2,)), "fast; [SK98] example 5, tau 2"),
-    "SK98-6a": Usual(Plant(1, 1, (20, 5)), "[SK98] example 6, lags 20 and 5"),
-    "SK98-6b": Usual(Plant(1, 1, (3, 3)), "[SK98] example 6, lags 3 and 3"),
-    "SK98-9": Usual(Plant(-4, 1, (-4,)), "unstable; [SK98] example 9, a theta 0.25", (SeriesPid(0.5, 20),)),
+    "four": Usual(Plant(1, 0, (1, 1, 1, 1)), said("four lags")),
+    "two": Usual(Plant(1, 1, (6, 2)), said("two lags")),
+    "delay": Usual(
+        Plant(1, 1), said("pure dead time [SG12]; [SK98] example 7"), (IController(0.5), SeriesPid(0.25, 0.5))
+    ),
+    "SK98-4": Usual(
+        Plant(1, 1, integrators=2), said("double integrating; [SK98] example 4"), (SeriesPid(0.0625, 8, 8),)
+    ),
+    "SK98-5a": Usual(
+        Plant(1, 1, (100,)), said("slow; [SK98] example 5, tau 100"), (SeriesPid(50, 100), SeriesPid(50, 8))
+    ),
+    "SK98-5b": Usual(Plant(1, 1, (10,)), said("[SK98] example 5, tau 10")),
+    "SK98-5c": Usual(Plant(1, 1, (2,)), said("fast; [SK98] example 5, tau 2")),
+    "SK98-6a": Usual(Plant(1, 1, (20, 5)), said("[SK98] example 6, lags 20 and 5")),
+    "SK98-6b": Usual(Plant(1, 1, (3, 3)), said("[SK98] example 6, lags 3 and 3")),
+    "SK98-9": Usual(Plant(-4, 1, (-4,)), said("unstable; [SK98] example 9, a theta 0.25"), (SeriesPid(0.5, 20),)),
 }
 
 

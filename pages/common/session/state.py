@@ -45,8 +45,7 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
 
     beside: parameters that this page has beside those of the design, see `place`; on other pages they are unknown.
     """
-    given = links.without_trackers(st.query_params.to_dict())
-    view, panel, lecture = (given.pop(name, "") for name in ("view", "panel", "lecture"))
+    given, view, panel, lecture = _given()
     if view:
         st.session_state["asked_view"] = view
     if lecture:
@@ -54,7 +53,7 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
     if beside != st.session_state.get("beside", ()):  # another page
         st.session_state["beside"] = beside
         st.session_state["place"], st.session_state["stands_for"] = {}, None
-    if given and given != st.session_state.get("address") and not _late(given):
+    if _is_new(given):
         st.session_state["ignored"] = _take_language(given)
         if beside:
             st.session_state["place"] = {name: given.pop(name) for name in beside if name in given}
@@ -66,6 +65,23 @@ def begin(beside: tuple[str, ...] = ()) -> Design:
     st.session_state.setdefault("opened", False)
     _show_in_address()
     return design_now()
+
+
+def begin_language() -> None:
+    """Take the language of a new address into use: the router names the pages before one of them begins."""
+    given, *_ = _given()
+    if _is_new(given):
+        _take_language(given)
+
+
+def _given() -> tuple[dict[str, str], str, str, str]:
+    """The address without what others have put there; and what it names beside the design: view, panel, lecture."""
+    given = links.without_trackers(st.query_params.to_dict())
+    return given, *(given.pop(name, "") for name in ("view", "panel", "lecture"))
+
+
+def _is_new(given: dict[str, str]) -> bool:
+    return bool(given) and given != st.session_state.get("address") and not _late(given)
 
 
 def language() -> str:
@@ -85,11 +101,21 @@ def _take_language(given: dict[str, str]) -> list[Ignored]:
     """Take the language out of an address and into use; one that is not offered is ignored."""
     asked = given.pop("lang", "")
     if asked in OFFERED:
-        make_last("language", asked)
-        _heard.session = None
+        _use(asked)
     elif asked:
         return [Ignored("lang", asked, said("the languages are {all}", all=joined(OFFERED)))]
     return []
+
+
+def speak(chosen: str) -> None:
+    """Another of the languages that are offered, from now on."""
+    _use(chosen)
+    _show_in_address()
+
+
+def _use(chosen: str) -> None:
+    make_last("language", chosen)
+    _heard.session = None
 
 
 def _language_in_address() -> dict[str, str]:

@@ -10,6 +10,7 @@ from pages.common.parts.structures import told_of
 from pages.common.parts.units import time_text
 from pages.common.session import project, state
 from pages.common.session.design import Design
+from pages.common.shell.language import language_menu
 from pages.common.shell.lecture import lecture, offer
 from pages.common.shell.loops_menu import loops_menu
 from pages.common.shell.paper import paper
@@ -71,6 +72,7 @@ def show(place: str) -> Design:
         loops_menu()
         sheet_form()
         _take_along(place)
+        language_menu()
     return design
 
 

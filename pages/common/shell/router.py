@@ -10,6 +10,7 @@ from pages.common.words import translated
 
 PAGES = Path(__file__).parents[2]
 
+state.begin_language()
 pages = {
     name: st.Page(PAGES / f"{name}.py", title=header.title_of(name), url_path=name, default=name == "home")
     for name in header.TITLES

@@ -12,7 +12,8 @@ from simc_core.wording import Text
 
 ENGLISH = "en"
 LOCALE = Path(__file__).parents[2] / "locale"
-# Offered when every sentence of the program is in its catalogue; tests/pages/test_catalogue.py sees to it.
+# Offered when every sentence of the program is in its catalogue; tests/pages/test_catalogue.py sees to it. Each by the
+# name that it has in itself: čeština, norsk, srpski, русский, Deutsch.
 OFFERED = {ENGLISH: "English"}
 
 

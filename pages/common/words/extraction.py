@@ -1,4 +1,4 @@
-"""What there is to translate: the templates of all calls of said, counted and words, in Python and in JavaScript.
+"""What there is to translate: the templates of said, counted and words in Python, of said in JavaScript.
 
 And the texts of the lessons of the program, which are files of TOML.
 """
@@ -15,11 +15,12 @@ from babel.messages.catalog import Catalog
 ROOT = Path(__file__).parents[3]
 MAKERS = ("said", "counted", "words")
 MODULES = ("simc_core.wording", "pages.common.words")
+TEXT = r'"(?:[^"\\\n]|\\.)*"'
+IN_SCRIPT = re.compile(rf"(?<![.\w])said\(\s*((?:{TEXT})(?:\s*\+\s*{TEXT})*\s*[,)])?")
+IMPORTED = re.compile(r'^import \{[^}]*\bsaid\b[^}]*\} from "[./\w]*/words\.js";$', re.MULTILINE)
 OF_A_LESSON = ("title", "where", "question", "choices", "answer", "misprint")  # what a reader sees of its fields
 OF_ITS_PARTS = ("text", "says", "name", "where", "differs")  # of play, moves, claims, printed and cases
 NUMBER = re.compile(r"[-\N{MINUS SIGN}]?\d+(\.\d+)?")
-IN_SCRIPT = re.compile(r'\bwords\(\s*("(?:[^"\\\n]|\\.)*"\s*[,)])?')
-IMPORTED = re.compile(r'^import \{[^}]*\bwords\b[^}]*\} from "[./\w]*/words\.js";$', re.MULTILINE)
 
 
 class NotPlain(ValueError):
@@ -73,14 +74,17 @@ def in_python(text: str, place: str) -> Iterator[Message]:
 
 
 def in_script(text: str, place: str) -> Iterator[Message]:
-    """Those of a JavaScript module that imports words(), which takes one text in double quotes. Raises NotPlain."""
+    """Those of a JavaScript module that imports said(): text in double quotes, a long one with + between its parts.
+
+    Raises NotPlain.
+    """
     if not IMPORTED.search(text):
         return
     for found in IN_SCRIPT.finditer(text):
         if found[1] is None:
             line = text.count("\n", 0, found.start()) + 1
-            raise NotPlain(f"{place}, line {line}: words() takes one text in double quotes")
-        yield Message(ast.literal_eval(found[1].rstrip(",) \n")), "", "", place)
+            raise NotPlain(f"{place}, line {line}: said() takes a text in double quotes")
+        yield Message("".join(map(ast.literal_eval, re.findall(TEXT, found[1]))), "", "", place)
 
 
 def in_lesson(text: str, place: str) -> Iterator[Message]:

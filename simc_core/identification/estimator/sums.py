@@ -2,7 +2,8 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
+
+from simc_core.algebra.recursion import first_order
 
 GONE = 1e-18  # what is left of a term, relative to it, that is left out
 
@@ -23,7 +24,7 @@ def decaying_sums(b: NDArray, h: NDArray[np.float64], rate: complex, even: bool)
     """
     kept = np.exp(-rate * h)
     if even and h.size:
-        return lfilter([1.0], [1.0, -kept[0]], b)
+        return first_order(b, kept[0])
     sums = b.astype(np.result_type(b, kept))
     factor = np.concatenate([[0.0], kept])
     step = 1

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
+from simc_core.algebra.recursion import first_order
 from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import InvalidParameter, NotIdentifiable, WrongType
 from simc_core.identification.trend import MOST_SAMPLES, Trend, check_trend
@@ -109,7 +109,8 @@ def _filtered(u: Array, h: Array, tau: float) -> Array:
     """1/(tau s + 1) of a held signal, at rest at first; the mean over each of the times h."""
     if np.ptp(h) <= 1e-6 * float(h.mean()):
         a = float(np.exp(-h[0] / tau))
-        state = lfilter([0.0, 1 - a], [1.0, -a], u - u[0]) + u[0]
+        moved = (1 - a) * first_order(u - u[0], a)
+        state = u[0] + np.append(0.0, moved[:-1])
     else:
         state, now = np.empty(u.size), float(u[0])
         for i, (value, step) in enumerate(zip(u.tolist(), h.tolist(), strict=True)):

@@ -5,8 +5,8 @@ neighbours are correlated by r [NW87 with the correlation of a first-order proce
 """
 
 import numpy as np
-from scipy.signal import lfilter
 
+from simc_core.algebra.recursion import first_order
 from simc_core.identification.estimator.fit import FEW, Fit
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.estimator.problem import Problem
@@ -98,7 +98,7 @@ def _spread(jacobian: Array, parts: list[slice], noise: Noise, floor: float) -> 
         across = np.zeros_like(square)
         for part in parts:
             own = jacobian[part]
-            across += own.T @ lfilter([0.0, r], [1.0, -r], own, axis=0)
+            across += r * own[1:].T @ first_order(own, r)[:-1]
         middle = square + across + across.T
     return inverse @ middle @ inverse * max(noise.sigma, floor) ** 2 / np.outer(scale, scale)
 

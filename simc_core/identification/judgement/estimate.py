@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from simc_core.identification.estimator.fit import Fit, continued, fitted, polished
 from simc_core.identification.estimator.held_input import Array
@@ -51,7 +51,7 @@ class Estimate:
     @property
     def half_width(self) -> float:
         """Of a 95 % interval, in standard errors: Student's t for the samples that count."""
-        return float(student.ppf(0.975, self.freedom))
+        return float(stdtrit(self.freedom, 0.975))
 
 
 def estimate(

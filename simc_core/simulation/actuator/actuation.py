@@ -26,6 +26,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.simulation.actuator.one_step import Linear, Step
 from simc_core.simulation.rise import mean_risen, risen
+from simc_core.wording import said
 
 FEWEST_STEPS = 5000  # at least; more where theta or h is short against the horizon
 MOST_STEPS = 50_000  # less than 0.1 s
@@ -127,11 +128,11 @@ class Actuation:
 def rest_within(u_min: float, u_max: float) -> None:
     """Raises InvalidParameter unless u = 0, where the loop is at rest, is within the limits, and something else too."""
     if u_min > 0:
-        raise InvalidParameter(f"u_min must be <= 0, where the loop is at rest, found {u_min:g}")
+        raise InvalidParameter(said("u_min must be <= 0, where the loop is at rest, found {u_min:g}", u_min=u_min))
     if u_max < 0:
-        raise InvalidParameter(f"u_max must be >= 0, where the loop is at rest, found {u_max:g}")
+        raise InvalidParameter(said("u_max must be >= 0, where the loop is at rest, found {u_max:g}", u_max=u_max))
     if u_min == u_max:
-        raise InvalidParameter(f"u_max must be > u_min = {u_min:g}, found {u_max:g}")
+        raise InvalidParameter(said("u_max must be > u_min = {u_min:g}, found {u_max:g}", u_min=u_min, u_max=u_max))
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,5 +251,12 @@ def column(z: np.ndarray, k: int, begin: int) -> "memoryview[float]":
 def affordable(steps: float, why: str) -> int:
     """Whole steps that go beyond `steps`, so that a jump at the end is seen. Raises InvalidParameter: MOST_STEPS."""
     if steps > MOST_STEPS:
-        raise InvalidParameter(f"t_end must be <= {MOST_STEPS} steps for {why}, found {steps:.3g}")
+        raise InvalidParameter(
+            said(
+                "t_end must be <= {most_steps} steps for {why}, found {steps:.3g}",
+                most_steps=MOST_STEPS,
+                why=why,
+                steps=steps,
+            )
+        )
     return math.floor(steps * (1 + SAME_INSTANT)) + 1

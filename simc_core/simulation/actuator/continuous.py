@@ -17,8 +17,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import lfilter
 
+from simc_core.algebra.recursion import first_order
 from simc_core.algebra.state_space import chain
 from simc_core.controllers.forms import ParallelPid, needs_filter
 from simc_core.errors import InvalidParameter
@@ -41,6 +41,7 @@ from simc_core.simulation.actuator.actuation import (
 )
 from simc_core.simulation.actuator.one_step import Linear, whole_steps
 from simc_core.simulation.actuator.sampled import sampled
+from simc_core.wording import said
 
 # Columns of z behind x. ASKED: u at the start and the end of the step before if there were no limits, GIVEN: as it is.
 # ASKED1 and INTEGRAL lack what u of that step adds to them.   ASK, RATE: see _known, RATE over the whole step.
@@ -75,7 +76,7 @@ def _continuous(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inp
     system, theta = _measured(loop, form), loop.plant.theta
     m = whole_steps(theta * FEWEST_STEPS / inputs.t_end) if theta else 0
     dt = theta / m if m else inputs.t_end / FEWEST_STEPS
-    N = affordable(inputs.t_end / dt, f"a dead time of {theta:g}")
+    N = affordable(inputs.t_end / dt, said("a dead time of {theta:g}", theta=theta))
     m, n = min(m, N), len(system.B)
     plant = Driven(system, system.ramp(dt), dt, theta, inputs)
     law = _law(plant, form.Ki, dt / 2, tracking_time_in_use(loop, actuation), at_once=m == 0)
@@ -155,7 +156,7 @@ def _known(form: ParallelPid, actuation: Actuation, inputs: Inputs, dt: float, N
         ratio = dt / form.tau_F  # the filter under an input that is linear over a step
         held = -math.expm1(-ratio)
         grown = 1 - held / ratio
-        nF = lfilter([grown, held - grown], [1.0, -math.exp(-ratio)], n)
+        nF = first_order(grown * n + (held - grown) * np.append(0.0, n[:-1]), math.exp(-ratio))
         n_slope = _both((n - nF) / form.tau_F)
     else:
         rF, nF = inputs.r(t), n

@@ -32,6 +32,7 @@ from simc_core.simulation.actuator.actuation import (
 )
 from simc_core.simulation.actuator.mechanism import Moved, mechanism
 from simc_core.simulation.actuator.one_step import Linear, whole_steps
+from simc_core.wording import said
 
 # Columns of z behind x. MEASURED: y at the end of the step before, but for its u.   From STATE on: State of the last
 # sample, its v in ASKED, its u, between the limits, in KNOWN.   GIVEN: u of the step before, as the actuator makes it.
@@ -46,7 +47,7 @@ def sampled(loop: Loop, form: ParallelPid, actuation: Actuation, inputs: Inputs)
     system, theta, h, n = Linear(A, B, C[None, :], np.array([D])), loop.plant.theta, actuation.h, len(B)
     fine = whole_steps(h * FEWEST_STEPS / inputs.t_end)  # steps a sampling period
     dt = h / fine
-    N = affordable(inputs.t_end / dt, f"a sampling period of {h:g}")
+    N = affordable(inputs.t_end / dt, said("a sampling period of {h:g}", h=h))
     m = min(math.ceil(theta / dt * (1 - SAME_INSTANT)), N)
     late = max(m * dt - theta, 0.0)  # w over step j is u of step j - m, for the last `late` that of j - m + 1
     reach = m, m - (late > 0)  # steps from u to w1 and to w2

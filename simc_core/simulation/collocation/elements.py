@@ -15,6 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev, legendre
 
 from simc_core.errors import InvalidParameter
+from simc_core.wording import said
 
 NODES_PER_ELEMENT = 20  # P in the shapes of arrays
 TOLERANCE = 1e-14
@@ -68,6 +69,10 @@ def mesh(modes: np.ndarray, length: float) -> np.ndarray:
         if len(steps) > MOST_ELEMENTS:
             radians = float(np.max(size)) * length
             raise InvalidParameter(
-                f"the horizon must be at most about {4 * MOST_ELEMENTS} radians, found {radians:.3g}"
+                said(
+                    "the horizon must be at most about {most_elements} radians, found {radians:.3g}",
+                    most_elements=4 * MOST_ELEMENTS,
+                    radians=radians,
+                )
             )
     return np.array(steps)

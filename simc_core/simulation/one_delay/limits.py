@@ -10,6 +10,7 @@ import math
 
 from simc_core.certificate.poles import dominant_poles
 from simc_core.loops.loop import Loop
+from simc_core.wording import said
 
 MOST_HELD = 12_000  # elements of all tunings of one march: 110 MB
 MOST_TOGETHER = 60  # tunings of one march; more do not make it faster
@@ -34,9 +35,11 @@ def share(tunings: int) -> int:
 
 def too_much(t_end: float) -> str:
     """What to say where all tunings of one call would take more than MOST_OF_ALL."""
-    return (
-        f"all responses up to t = {t_end:.4g} must need at most {MOST_OF_ALL} elements together, found more: "
-        "they oscillate too long; ask for fewer or shorter ones"
+    return said(
+        "all responses up to t = {t_end:.4g} must need at most {most_of_all} elements together, found more: they "
+        "oscillate too long; ask for fewer or shorter ones",
+        t_end=t_end,
+        most_of_all=MOST_OF_ALL,
     )
 
 

@@ -48,6 +48,7 @@ from simc_core.simulation.one_delay.limits import (
 from simc_core.simulation.one_delay.process_maps import Chosen
 from simc_core.simulation.one_delay.step_control import GONE, REST, TAIL, StepControl
 from simc_core.simulation.one_delay.unit_responses import Batch, UnitResponses, course
+from simc_core.wording import said
 
 SMOOTH = 7  # order of derivative from which a jump is left to the tails
 MOST_INTERVALS = 3 * SMOOTH  # of theta that are stepped over first
@@ -114,8 +115,13 @@ class March:
         at_first = self.count * len(self.levels.mesh)
         if at_first > MOST_TO_END:
             raise InvalidParameter(
-                f"the first {self.count} dead times must need at most {MOST_TO_END} elements, found {at_first}: "
-                "modes of the plant are too fast for its dead time"
+                said(
+                    "the first {count} dead times must need at most {most_to_end} elements, found {at_first}: "
+                    "modes of the plant are too fast for its dead time",
+                    count=self.count,
+                    most_to_end=MOST_TO_END,
+                    at_first=at_first,
+                )
             )
         forms = forms[: together(at_first)]
         n = self.n_left = len(forms)
@@ -201,8 +207,13 @@ class March:
 
     def _refuse(self, covered: float) -> NoReturn:
         raise InvalidParameter(
-            f"t_end must need at most {MOST_TO_END} elements, found {self.t_end:.4g}, of which they cover "
-            f"{covered:.4g}: the loop oscillates too fast for it"
+            said(
+                "t_end must need at most {most_to_end} elements, found {t_end:.4g}, of which they cover "
+                "{covered:.4g}: the loop oscillates too fast for it",
+                most_to_end=MOST_TO_END,
+                t_end=self.t_end,
+                covered=covered,
+            )
         )
 
     def _leave_half(self) -> None:

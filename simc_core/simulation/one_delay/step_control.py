@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from simc_core.errors import InvalidParameter
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
+from simc_core.wording import said
 
 TAIL = 1e-11
 ROOM, SMALL, AIM = 1e-3, 0.03, 0.1  # of TAIL
@@ -43,7 +44,7 @@ class StepControl:
     def shorten(self) -> None:
         """The element was not good. Raises InvalidParameter where no length is short enough."""
         if self.level <= LOWEST:
-            raise InvalidParameter("the response must have a time scale that can be resolved, found none")
+            raise InvalidParameter(said("the response must have a time scale that can be resolved, found none"))
         self.level, self.good = self.level - 1, 0
         self.patience = min(2 * self.patience, MOST_PATIENCE)
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from simc_core.errors import InvalidParameter
 from simc_core.simulation.several_delays.network import Network
+from simc_core.wording import said
 
 SMOOTH = 8  # order of derivative from which a jump is left to step control
 NO_JUMP = 1e-13  # jumps of the size of the step times this are none
@@ -44,8 +45,11 @@ class Breakpoints:
         self.count += 1
         if self.count > MOST:
             raise InvalidParameter(
-                f"a response may have at most {MOST} jumps before it is smooth, found more: the loop is neutral, and "
-                "its dead time too short for this horizon"
+                said(
+                    "a response may have at most {most} jumps before it is smooth, found more: the loop is "
+                    "neutral, and its dead time too short for this horizon",
+                    most=MOST,
+                )
             )
         t, lowest, _, _ = self.heap[0]
         arrived: dict[int, tuple[int, float]] = {}

@@ -23,6 +23,7 @@ from simc_core.simulation.collocation.pieces import Pieces
 from simc_core.simulation.several_delays.breakpoints import SMOOTH, Breakpoints
 from simc_core.simulation.several_delays.delay_maps import LEFT, DelayMap, delay_map
 from simc_core.simulation.several_delays.network import Network, network
+from simc_core.wording import said
 
 TAIL = 3e-10  # last two coefficients of an element, relative to the largest value so far
 ROOM = 2.0**-10  # the tail must be below ROOM TAIL for the length to be doubled at once
@@ -171,8 +172,12 @@ class NestedStepper:
     def _keep(self, values: np.ndarray, x: np.ndarray, end: float) -> None:
         if self.count >= self.most:
             raise InvalidParameter(
-                f"the horizon must need at most {self.most} elements, found more by t = {self.t:.3g}: "
-                "the loop oscillates too fast for it"
+                said(
+                    "the horizon must need at most {most} elements, found more by t = {t:.3g}: the loop "
+                    "oscillates too fast for it",
+                    most=self.most,
+                    t=self.t,
+                )
             )
         if self.count == len(self.coefficients):
             self.coefficients = np.concatenate([self.coefficients, np.zeros_like(self.coefficients)])

@@ -4,6 +4,7 @@ import { numbers, text } from "../kit/format.js";
 import { Instrument } from "../kit/instrument.js";
 import { strip } from "../kit/strip.js";
 import { between, mix, stencil } from "../kit/table.js";
+import { said } from "../kit/words.js";
 import { loopsOf, marginsOf } from "./loops.js";
 import { cascadePanels } from "./panels.js";
 
@@ -14,8 +15,8 @@ export class Cascade extends Instrument {
   constructor(root) {
     super(root, {
       sliders: ["inner", "outer"].map((name) => ({ name, symbol: name, label: name })),
-      views: [["responses", "Responses"]],
-      hint: "Keys: arrows, Home, End, Tab · space sweep · H hide · R back to begin · L or Esc leave",
+      views: [["responses", said("Responses")]],
+      hint: said("Keys: arrows, Home, End, Tab · space sweep · H hide · R back to begin · L or Esc leave"),
     });
     root.classList.add("two");
     this.tables = {};
@@ -100,7 +101,7 @@ export class Cascade extends Instrument {
         exact: false,
         settings: {},
         metrics: nothing(setup),
-        why: table.inner_stable ? "Cascade not stable" : "Not stable: one of the loops",
+        why: table.inner_stable ? said("Cascade not stable") : said("Not stable: one of the loops"),
       };
     const x = Math.log(tau_c),
       at = stencil(x, table.log_tau_c, table.breaks);
@@ -129,14 +130,14 @@ export class Cascade extends Instrument {
 
   readExact(exact) {
     const row = (name) => exact.blocks[name] && mix(exact.blocks[name], { first: 0, weights: [1] });
-    const why = exact.sound ? "" : exact.inner_stable ? "Cascade not stable" : "Inner loop not stable on its own";
+    const why = exact.inner_stable ? said("Cascade not stable") : said("Inner loop not stable on its own");
     return {
       exact: true,
       y1: row("y1"),
       y2: row("y2"),
       u: row("u"),
       loops: loopsOf(this.setup, row("parameters")),
-      why,
+      why: exact.sound ? "" : why,
       settings: exact.settings,
       metrics: numbers(exact.metrics),
     };
@@ -151,22 +152,32 @@ export class Cascade extends Instrument {
       this.setup,
       metrics,
       exact,
-      why && "Not stable: margins and IAE do not exist",
+      why && said("Not stable: margins and IAE do not exist"),
     );
     this.root.classList.toggle("waits", curves === false);
   }
 
   title() {
-    return this.sliders.map(({ name, tau_c }) => `${name} ${text(tau_c)}`).join(", ");
+    const [inner, outer] = this.sliders.map(({ tau_c }) => text(tau_c));
+    return said("inner {inner}, outer {outer}", { inner, outer });
   }
 
   words({ why, metrics: m }) {
     const speeds = this.title();
     if (why) return `${speeds}: ${why}`;
-    return (
-      `${speeds}: Ms of the outer loop ${text(m.Ms_outer)}, of the inner one ${text(m.Ms_inner)}, ` +
-      `gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
-      `IAE set point ${text(m.IAE_setpoint)}, d1 ${text(m.IAE_d1)}, d2 ${text(m.IAE_d2)}`
+    return said(
+      "{speeds}: Ms of the outer loop {Ms_outer}, of the inner one {Ms_inner}, " +
+        "gain margin {GM}, phase margin {PM} degrees, IAE set point {IAE_r}, d1 {IAE_d1}, d2 {IAE_d2}",
+      {
+        speeds,
+        Ms_outer: text(m.Ms_outer),
+        Ms_inner: text(m.Ms_inner),
+        GM: text(m.GM),
+        PM: text(m.PM_deg),
+        IAE_r: text(m.IAE_setpoint),
+        IAE_d1: text(m.IAE_d1),
+        IAE_d2: text(m.IAE_d2),
+      },
     );
   }
 }

@@ -16,6 +16,7 @@ import {
 } from "../kit/curves.js";
 import { round, text } from "../kit/format.js";
 import { sensitivities } from "../kit/table.js";
+import { said } from "../kit/words.js";
 
 const INNER = "--simc-inner";
 const INNER_DASH = [8, 4];
@@ -37,14 +38,14 @@ export function cascadePanels(setup, scale) {
   const output = timePanel(
     {
       key: "y",
-      title: "Outputs y1, y2",
+      title: said("Outputs y1, y2"),
       short: "y1, y2",
       aids: 3,
       names: ["y2", "y1"],
       legend: [
         { text: "y1", color: Y },
         { text: "y2", color: INNER, dash: true },
-        { text: `d1 at ${atD1}, d2 at ${atD2}`, color: D, dash: true },
+        { text: said("d1 at {d1}, d2 at {d2}", { d1: atD1, d2: atD2 }), color: D, dash: true },
       ],
       y: { label: "y1, y2", limits: keeping([0, 1.05]) },
       styles: [
@@ -60,7 +61,7 @@ export function cascadePanels(setup, scale) {
   const input = timePanel(
     {
       key: "u",
-      title: "Input u",
+      title: said("Input u"),
       short: "u",
       aids: 2,
       names: ["u"],
@@ -73,11 +74,11 @@ export function cascadePanels(setup, scale) {
   );
   const nyquist = nyquistPanel(
     {
-      title: "Nyquist",
+      title: said("Nyquist"),
       legend: [
         { text: "La", color: Y },
         { text: "Lb", color: INNER, dash: true },
-        { text: "their Ms", color: S_LINE },
+        { text: said("their Ms"), color: S_LINE },
       ],
       loops: [
         { name: "Lb", color: INNER, dash: INNER_DASH, ring: S_LINE },
@@ -90,7 +91,7 @@ export function cascadePanels(setup, scale) {
   const sensitivity = magnitudePanel(
     {
       key: "sensitivity",
-      title: "|S| of both loops",
+      title: said("|S| of both loops"),
       short: "|S|",
       names: ["|Sb|", "|Sa|"],
       legend: [

@@ -6,6 +6,7 @@ import { numbers, text } from "../kit/format.js";
 import { Instrument } from "../kit/instrument.js";
 import { strip } from "../kit/strip.js";
 import { mix } from "../kit/table.js";
+import { listed, said } from "../kit/words.js";
 import { responsePanels } from "../tuning/panels.js";
 import { turned } from "./knobs.js";
 
@@ -16,8 +17,8 @@ export class Hand extends Instrument {
   constructor(root) {
     super(root, {
       sliders: Array.from({ length: KNOBS }, (_, i) => ({ name: i, symbol: "", label: "" })),
-      views: [["responses", "Responses"]],
-      hint: "Keys: arrows, Page up and down, Home, End move a knob · H hide · R return · L or Esc back",
+      views: [["responses", said("Responses")]],
+      hint: said("Keys: arrows, Page up and down, Home, End move a knob · H hide · R return · L or Esc back"),
     });
     root.classList.add("hand");
     root.querySelector(".play").hidden = true;
@@ -97,17 +98,22 @@ export class Hand extends Instrument {
   }
 
   figures({ exact, stable, metrics }) {
-    strip(this.root.querySelector(".strip"), this.setup, metrics, exact, stable ? "" : "not stable");
+    strip(this.root.querySelector(".strip"), this.setup, metrics, exact, stable ? "" : said("not stable"));
   }
 
   title() {
-    return this.used.map((slider) => `${slider.name} = ${text(slider.tau_c)}`).join(", ");
+    return listed(this.used.map((slider) => `${slider.name} = ${text(slider.tau_c)}`));
   }
 
   words({ stable, metrics: m }) {
     const at = this.title();
-    if (!stable) return `${at}: the loop is not stable`;
-    return `${at}: Ms ${text(m.Ms)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees`;
+    if (!stable) return said("{settings}: the loop is not stable", { settings: at });
+    return said("{settings}: Ms {Ms}, gain margin {GM}, phase margin {PM} degrees", {
+      settings: at,
+      Ms: text(m.Ms),
+      GM: text(m.GM),
+      PM: text(m.PM_deg),
+    });
   }
 }
 

@@ -16,25 +16,27 @@ from pages.common.live.tuning.table import CURVES, SHOWN, Grid, at_rest, cap, re
 from pages.common.parts.settings_text import UNITS
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, study_of_settings
+from pages.common.words import translated
 from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 REACH = 10.0  # a knob goes to so many times its value, and to its inverse
 CELLS = tuple(name for name in SHOWN if name != "noise_gain")
 LEAST_D = 0.01  # of tau_I or theta: the lowest tau_D above 0 on the knob
 NAMES = {
-    "Kc": ("K<sub>c</sub>", "Controller gain Kc"),
-    "tau_I": ("τ<sub>I</sub>", "Integral time tau_I"),
-    "tau_D": ("τ<sub>D</sub>", "Derivative time tau_D"),
-    "Kp": ("K<sub>p</sub>", "Proportional gain Kp"),
-    "Ki": ("K<sub>i</sub>", "Integral gain Ki"),
-    "Kd": ("K<sub>d</sub>", "Derivative gain Kd"),
-    "K_I": ("K<sub>I</sub>", "Integral gain K_I"),
-    "k": ("k", "Gain of the plant k"),
-    "theta": ("θ", "Dead time theta"),
-    "tau1": ("τ<sub>1</sub>", "Largest time constant tau1"),
+    "Kc": ("K<sub>c</sub>", said("Controller gain Kc")),
+    "tau_I": ("τ<sub>I</sub>", said("Integral time tau_I")),
+    "tau_D": ("τ<sub>D</sub>", said("Derivative time tau_D")),
+    "Kp": ("K<sub>p</sub>", said("Proportional gain Kp")),
+    "Ki": ("K<sub>i</sub>", said("Integral gain Ki")),
+    "Kd": ("K<sub>d</sub>", said("Derivative gain Kd")),
+    "K_I": ("K<sub>I</sub>", said("Integral gain K_I")),
+    "k": ("k", said("Gain of the plant k")),
+    "theta": ("θ", said("Dead time theta")),
+    "tau1": ("τ<sub>1</sub>", said("Largest time constant tau1")),
 }
 
 
@@ -96,7 +98,7 @@ def _knob(subject: Subject, name: str, value: float) -> dict:
     return {
         "name": name,
         "symbol": symbol,
-        "label": label,
+        "label": translated(label),
         "value": value,
         "low": low,
         "high": size * REACH,
@@ -198,7 +200,9 @@ def values_of(subject: Subject) -> dict[str, float]:
 def allowed(subject: Subject, values: object) -> dict[str, float]:
     """Values that a browser sent, those of knobs only. Raises InvalidParameter for what is no number in range."""
     if not isinstance(values, Mapping):
-        raise InvalidParameter(f"values must be those of the knobs by name, found {values!s:.20}")
+        raise InvalidParameter(
+            said("values must be those of the knobs by name, found {found}", found=f"{values!s:.20}")
+        )
     found = {}
     for knob in knobs(subject):
         value = values.get(knob["name"], knob["value"])
@@ -208,7 +212,13 @@ def allowed(subject: Subject, values: object) -> dict[str, float]:
         )
         if not within:
             raise InvalidParameter(
-                f"{knob['name']} must be within {knob['low']:g} to {knob['high']:g}, found {value!s:.20}"
+                said(
+                    "{name} must be within {low:g} to {high:g}, found {found}",
+                    name=knob["name"],
+                    low=knob["low"],
+                    high=knob["high"],
+                    found=f"{value!s:.20}",
+                )
             )
         found[knob["name"]] = float(value)
     return found

@@ -12,6 +12,7 @@ from pages.common.live.tuning.table import grid_around
 from pages.common.session import state
 from pages.common.session.excitation import Excitation
 from pages.common.studies.single import Study, study_of_settings
+from pages.common.words import translated
 from simc_core.controllers.forms import Controller
 from simc_core.errors import SimcError
 from simc_core.loops.loop import Loop
@@ -57,7 +58,7 @@ def shown(
         try:
             heard(release)
         except SimcError as error:
-            st.toast(str(error))
+            st.toast(translated(str(error)))
 
     held = state.memory(key, Turned)
     subject = held.subject

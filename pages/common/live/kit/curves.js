@@ -2,6 +2,7 @@
 
 import { nearest, text } from "./format.js";
 import { ALARM, Panel } from "./panel.js";
+import { listed, numeral, said } from "./words.js";
 
 // Colours are CSS variables, written by simc_core/figures/palette.py.
 export const Y = "--simc-y";
@@ -23,7 +24,13 @@ const AXES = [
 export const EMPTY = { x: [], y: [] };
 
 /** What stands on the axes; an instrument puts the user's own units here before it makes panels. */
-export const LABELS = { t: "t  [time unit]", omega: "ω  [rad/time unit]", y: "y", u: "u" };
+const TIME = said("time unit");
+export const LABELS = {
+  t: said("t  [{unit}]", { unit: TIME }),
+  omega: said("ω  [rad/{unit}]", { unit: TIME }),
+  y: "y",
+  u: "u",
+};
 
 /** A number with the user's unit of what it is of, "time" or "OP/PV", where that has a name. */
 export const measured = (words, what) => (LABELS[what] ? `${words} ${LABELS[what]}` : words);
@@ -98,14 +105,14 @@ export function nyquistPanel({ title, loops, legend, behind = [] }, { omega, cir
     {
       key: "nyquist",
       title,
-      short: "Nyquist",
+      short: said("Nyquist"),
       square: true,
       tell,
       names: loops.map(({ name }) => name),
       along: "omega",
       omega,
       where: (panel, x, y) => omega[nearestTo(panel, x, y)?.i],
-      legend: [...legend, { text: `Ms ${circles.map((Ms) => Ms.toFixed(1)).join(", ")}`, color: R, dash: true }],
+      legend: [...legend, { text: `Ms ${listed(circles.map(shown))}`, color: R, dash: true }],
       x: { label: "Re L", limits: () => [-2.4, 0.9] },
       y: { label: "Im L", limits: () => [-1.75, 0.8] },
       styles: [
@@ -127,7 +134,7 @@ export function nyquistCurves(circles, peaks, behind, loops) {
   const labels = circles.map((Ms, i) => ({
     x: -1 + Math.cos(LABELS_AT[i]) / Ms,
     y: Math.sin(LABELS_AT[i]) / Ms,
-    label: Ms.toFixed(1),
+    label: shown(Ms),
     align: LABELS_AT[i] > 1.5 ? "right" : "left",
   }));
   const point = { x: -1, y: 0, color: ALARM, label: "−1", cross: true, align: "right" };
@@ -154,6 +161,8 @@ export function magnitudePanel({ names, styles, ...spec }, omega, scale) {
 }
 
 export const unity = (omega) => ({ x: [omega[0], omega.at(-1)], y: [1, 1] });
+
+const shown = (Ms) => numeral(Ms.toFixed(1));
 
 function circle(Ms) {
   const x = [],

@@ -1,10 +1,15 @@
 // Numbers in words and on axes.
 
+import { numeral } from "./words.js";
+
 export const STEPS = [];
 for (let e = -12; e <= 12; e++) for (const m of [1, 2, 5]) STEPS.push(Number(`${m}e${e}`));
 
-/** Four significant digits at most, no trailing zeros; infinity as the sign. */
-export function text(value, digits = 4) {
+/** Four significant digits at most, no trailing zeros, the decimal sign of the language; infinity as the sign. */
+export const text = (value, digits = 4) => numeral(plain(value, digits));
+
+/** The same with a decimal point. */
+export function plain(value, digits = 4) {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   const size = Math.abs(value);

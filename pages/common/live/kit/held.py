@@ -4,6 +4,7 @@ from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 
 from pages.common.shared import Shared
+from pages.common.words import language
 
 MOST_BYTES = 64_000_000  # a table has 0.1 to 1 MB
 TABLES: Shared[bytes] = Shared(MOST_BYTES, len)
@@ -23,7 +24,8 @@ class Held:
         return self.end if self.subject == subject else None
 
     def message(self, kind: str, name: str, make: Callable[[], bytes]) -> bytes:
-        """The message of this kind and name; a release must not make it again where the name is the same."""
+        """The message of this kind and name in the language in use; a release must not make the same again."""
+        name = f"{name} {language()}"
         if self.messages.get(kind, ("",))[0] != name:
             self.messages[kind] = (name, TABLES.get(f"{kind} {name}", make))
         return self.messages[kind][1]

@@ -9,6 +9,7 @@ import { Lecture } from "./lecture.js";
 import { cross } from "./overlay.js";
 import { savePng, saveSvg } from "./picture.js";
 import { Slider } from "./slider.js";
+import { said } from "./words.js";
 
 const PERIOD = 8000; // ms for tau_c to go up and down once
 const STEP = 500; // ms from one place to the next where the user asked for less motion
@@ -20,6 +21,7 @@ export class Instrument {
     this.waiting = 0;
     this.views = {};
     const find = (selector) => root.querySelector(selector);
+    this.name(find);
     const hand = { moved: (slider) => this.moved(slider), released: (slider) => this.release(slider) };
     this.sliders = sliders.map((each) => new Slider(each, hand));
     this.slider = this.sliders.at(-1); // the one that was touched last
@@ -43,6 +45,17 @@ export class Instrument {
     new ResizeObserver(() => requestAnimationFrame(() => this.fit())).observe(root);
     find(".probe").addEventListener("transitionend", () => this.rebuild()); // the theme's colours changed
     this.look(views[0][0]);
+  }
+
+  /** The words of what live.html has. */
+  name(find) {
+    find(".more").textContent = said("All numbers");
+    find(".play").textContent = said("▶ Sweep");
+    find(".play").title = said("Move it slowly up and down, then back (space)");
+    find(".lecture").textContent = said("Lecture");
+    find(".lecture").title = said("Lecture view: large type (L); back with Esc");
+    find(".png").title = said("Save the figures as PNG");
+    find(".svg").title = said("Save the figures as SVG");
   }
 
   /** Exact numbers; those of a tau_c that has been left again are not shown. Whether they were taken. */

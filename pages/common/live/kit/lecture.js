@@ -1,12 +1,17 @@
 // The lecture view: the instrument as a modal dialog, readable from the last row, with what a class guesses hidden.
 
 import { button } from "./format.js";
+import { said } from "./words.js";
 
 const ON_SCREEN = 28; // px of all letters on a screen of 1920 x 1080, about 10 minutes of arc from the last row
 const SCREEN = [1920, 1080];
 const LEAST = 14; // px, where the screen is small and near
 const ROOM = [900, 600]; // px: less has one panel
-const HIDDEN = ["numbers", "curves", "future"];
+const HIDDEN = [
+  ["numbers", said("numbers"), said("Hide the numbers; H shows them again")],
+  ["curves", said("curves"), said("Hide the curves; H shows them again")],
+  ["future", said("future"), said("Hide the future; H shows it again")],
+];
 
 /** px of letters: they grow with the smaller side. */
 export const typeFor = (width, height) => Math.max(LEAST, ON_SCREEN * Math.min(width / SCREEN[0], height / SCREEN[1]));
@@ -21,15 +26,15 @@ export class Lecture {
     this.last = "numbers"; // what H hides
     this.bar = document.createElement("div");
     this.bar.className = "lecturing";
-    this.hiders = HIDDEN.map((what) =>
+    this.hiders = HIDDEN.map(([what, name, title]) =>
       Object.assign(
-        button(what, `Hide the ${what}; H shows them again`, () => this.hide(what)),
+        button(name, title, () => this.hide(what)),
         { value: what },
       ),
     );
-    this.back = button("Return", "To where the lecture began (R)", () => this.toBegin());
-    this.code = button("QR", "This view as a link for phones (Q)", () => this.link());
-    this.bar.append("Hide ", ...this.hiders, this.back, this.code);
+    this.back = button(said("Return"), said("To where the lecture began (R)"), () => this.toBegin());
+    this.code = button("QR", said("This view as a link for phones (Q)"), () => this.link());
+    this.bar.append(said("Hide"), " ", ...this.hiders, this.back, this.code);
     live.root.querySelector(".bar").append(this.bar);
   }
 
@@ -47,7 +52,7 @@ export class Lecture {
     this.begun = live.sliders.map((slider) => slider.tau_c);
     this.dialog = document.createElement("dialog");
     this.dialog.className = "hall";
-    this.dialog.setAttribute("aria-label", "Lecture view");
+    this.dialog.setAttribute("aria-label", said("Lecture view"));
     this.card = Object.assign(document.createElement("div"), { className: "card", hidden: true });
     live.root.before(this.dialog);
     this.formulas = Object.assign(document.createElement("div"), { className: "told" });
@@ -150,7 +155,7 @@ export class Lecture {
   /** message: the link, and its code as the address of a picture. */
   show({ link, qr }) {
     if (!this.open || this.card.hidden) return;
-    const code = Object.assign(document.createElement("img"), { src: qr, alt: "QR code of the link below" });
+    const code = Object.assign(document.createElement("img"), { src: qr, alt: said("QR code of the link below") });
     const words = Object.assign(document.createElement("div"), { textContent: link });
     this.card.replaceChildren(code, words);
   }

@@ -1,7 +1,10 @@
-// Where messages for the instrument `name` wait until it is there.
+// Where messages for the instrument `name` wait until it is there; that of another language may still stand beside it.
+
+import { language } from "./words.js";
 
 export function letters(name) {
+  const place = `${name} ${language}`;
   globalThis.simcLetters ??= {};
-  globalThis.simcLetters[name] ??= { open: null, waiting: [] };
-  return globalThis.simcLetters[name];
+  globalThis.simcLetters[place] ??= { open: null, waiting: [] };
+  return globalThis.simcLetters[place];
 }

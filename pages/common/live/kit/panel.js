@@ -4,6 +4,7 @@ import { button, isDecade, STEPS, text } from "./format.js";
 import { namesOf } from "./names.js";
 import { ghosts, seen } from "./overlay.js";
 import { bounded, pinch, touched } from "./pinch.js";
+import { said } from "./words.js";
 
 export const ALARM = "--simc-alarm";
 
@@ -32,12 +33,12 @@ export class Panel {
     this.box.querySelector(".legend").replaceChildren(...(spec.legend ?? []).map(swatch));
     this.readout = this.box.querySelector("output");
     this.plot = this.box.querySelector(".plot");
-    this.unzoom = button("⟲ Reset zoom", "Or a double click on the curves", () => this.reset());
+    this.unzoom = button(said("⟲ Reset zoom"), said("Or a double click on the curves"), () => this.reset());
     this.unzoom.className = "unzoom";
     this.unzoom.hidden = true;
     touched(this.unzoom, () => this.reset());
-    this.single = button("⤢", "One panel or all");
-    this.single.setAttribute("aria-label", `Show ${spec.title} alone or all`);
+    this.single = button("⤢", said("One panel or all"));
+    this.single.setAttribute("aria-label", said("Show {panel} alone or all", { panel: spec.title }));
     this.box.querySelector("figcaption").append(this.unzoom, this.single);
     pinch(this);
   }

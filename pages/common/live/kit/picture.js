@@ -1,5 +1,6 @@
 // The panels in sight as a file: PNG from their canvases, SVG from their curves.
 
+import { plain } from "./format.js";
 import { element, escaped, place, svgPanel, svgText } from "./svg.js";
 
 /** Panels shown, with their places on the sheet in pixels of the page. */
@@ -73,6 +74,7 @@ export function saveSvg(live) {
 function download(live, href, kind) {
   const link = document.createElement("a");
   link.href = href;
-  link.download = `simc-${live.title().replace("τc", "tau_c")}.${kind}`.replace(/[^\w.]+/g, "-");
+  const places = live.sliders.filter(({ row }) => !row.hidden).map(({ name, tau_c }) => `${name}-${plain(tau_c)}`);
+  link.download = `simc-${places.join("-")}.${kind}`.replace(/[^\w.]+/g, "-");
   link.click();
 }

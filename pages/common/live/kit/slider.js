@@ -4,6 +4,7 @@ import { measured } from "./curves.js";
 import { STEPS, text } from "./format.js";
 import { presses } from "./presses.js";
 import { escaped } from "./svg.js";
+import { numeral, said } from "./words.js";
 
 export class Slider {
   /**
@@ -75,7 +76,7 @@ export class Slider {
       ...unstable.map(([from, to]) => {
         const hatch = document.createElement("div");
         hatch.className = "hatch";
-        hatch.title = `not stable from ${text(from, 3)} to ${text(to, 3)}`;
+        hatch.title = said("not stable from {low} to {high}", { low: text(from, 3), high: text(to, 3) });
         hatch.style.left = `${100 * this.share(from)}%`;
         hatch.style.width = `${100 * (this.share(to) - this.share(from))}%`;
         return hatch;
@@ -96,14 +97,15 @@ export class Slider {
     this.value.textContent = `${size}${this.symbol ? ` = ${ratio} ${this.symbol}` : ""}`;
     this.handle.style.left = `${100 * this.share(tau_c)}%`;
     this.handle.setAttribute("aria-valuenow", tau_c);
-    this.handle.setAttribute("aria-valuetext", `${size}${this.symbol ? `, ${ratio} times theta` : ""}`);
+    const spoken = this.symbol ? said("{size}, {ratio} times theta", { size, ratio }) : size;
+    this.handle.setAttribute("aria-valuetext", spoken);
   }
 
   /** The controller's settings there; exact: all digits on hover; measures: what each is of; action: in words. */
   tell(settings, exact, measures, action) {
     const each = Object.entries(settings).map(([name, value]) => {
       const size = escaped(measured(text(value), measures[name]));
-      return `<span title="${exact ? value : ""}">${typeset(name)} <b>${size}</b></span>`;
+      return `<span title="${exact ? numeral(value) : ""}">${typeset(name)} <b>${size}</b></span>`;
     });
     this.settings.innerHTML = [...each, `<span class="action">${action}</span>`].join("");
   }

@@ -4,6 +4,7 @@ import { LABELS, S_LINE, U, Y } from "../kit/curves.js";
 import { text } from "../kit/format.js";
 import { ALARM, Panel } from "../kit/panel.js";
 import { presses } from "../kit/presses.js";
+import { said } from "../kit/words.js";
 
 const UNSTABLE = "--simc-alarm-band";
 const NEAR = 14; // px, from a rule's point to the pointer that means it
@@ -21,15 +22,15 @@ export class PlanePanel extends Panel {
     super(
       {
         key: "plane",
-        title: "Kc and τI",
+        title: said("Kc and τI"),
         x: { label: `Kc${unit("OP/PV")}`, log: true, limits: () => plane.x },
         y: { label: `τI${unit("time")}`, log: true, limits: () => plane.y },
         legend: [
-          { text: "PI rules", color: Y },
-          { text: "best PI", color: Y },
-          { text: "SIMC over τc", color: U, dash: true },
+          { text: said("PI rules"), color: Y },
+          { text: said("best PI"), color: Y },
+          { text: said("SIMC over τc"), color: U, dash: true },
           { text: "Mst", color: S_LINE, dash: true },
-          { text: "limit of stability", color: ALARM },
+          { text: said("limit of stability"), color: ALARM },
         ],
         styles: [
           { color: UNSTABLE, width: 0, fill: UNSTABLE },
@@ -48,9 +49,9 @@ export class PlanePanel extends Panel {
     this.handle = document.createElement("div");
     this.handle.className = "point";
     this.handle.tabIndex = 0;
-    this.handle.title = `${plane.name}: drag, or move by the arrow keys`;
+    this.handle.title = said("{point}: drag, or move by the arrow keys", { point: plane.name });
     this.handle.setAttribute("role", "slider");
-    this.handle.setAttribute("aria-roledescription", "point in the plane of Kc and tau_I");
+    this.handle.setAttribute("aria-roledescription", said("point in the plane of Kc and tau_I"));
     this.handle.setAttribute("aria-label", plane.name);
     this.handle.setAttribute("aria-valuenow", "0");
     this.handle.addEventListener("pointerdown", (event) => this.grab(event));

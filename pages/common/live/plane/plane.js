@@ -2,6 +2,7 @@
 
 import { Hand } from "../hand/hand.js";
 import { text } from "../kit/format.js";
+import { listed } from "../kit/words.js";
 import { responsePanels } from "../tuning/panels.js";
 import { PlanePanel } from "./panel.js";
 
@@ -41,6 +42,6 @@ export class Plane extends Hand {
 
   title() {
     const [Kc, tau_I] = this.used.map((slider) => text(slider.tau_c));
-    return `Kc = ${Kc}, τI = ${tau_I}`;
+    return listed([`Kc = ${Kc}`, `τI = ${tau_I}`]);
   }
 }

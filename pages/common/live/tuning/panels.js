@@ -18,6 +18,7 @@ import {
 } from "../kit/curves.js";
 import { round, text } from "../kit/format.js";
 import { mix, sensitivities } from "../kit/table.js";
+import { said } from "../kit/words.js";
 
 export function responsePanels(table, scale) {
   const { t, omega, pins, steps } = table;
@@ -28,14 +29,14 @@ export function responsePanels(table, scale) {
   const output = timePanel(
     {
       key: "y",
-      title: "Output y",
+      title: said("Output y"),
       short: "y",
       aids: 2,
       names: ["y"],
       legend: [
         { text: "y", color: Y },
         { text: "r", color: R, dash: true },
-        ...(steps.d ? [{ text: `load d from ${text(steps.load, 3)}`, color: D, dash: true }] : []),
+        ...(steps.d ? [{ text: said("load d from {time}", { time: text(steps.load, 3) }), color: D, dash: true }] : []),
         ...pins.map(({ name }, i) => ({ text: name, color: shadeOf(Y, i), dash: true })),
       ],
       y: { label: LABELS.y, limits: (p) => within(extent(p, window, bounds), table.y_cap) },
@@ -52,7 +53,7 @@ export function responsePanels(table, scale) {
   const input = timePanel(
     {
       key: "u",
-      title: "Input u",
+      title: said("Input u"),
       short: "u",
       names: ["u"],
       legend: [{ text: "u", color: U }],
@@ -64,12 +65,12 @@ export function responsePanels(table, scale) {
   );
   const nyquist = nyquistPanel(
     {
-      title: "Nyquist L(jω)",
+      title: said("Nyquist L(jω)"),
       loops: [{ name: "L", color: Y, ring: S_LINE }],
       behind: pinned(Y, pins),
       legend: [
         { text: "L", color: Y },
-        { text: "Ms circle", color: S_LINE },
+        { text: said("Ms circle"), color: S_LINE },
       ],
     },
     table,
@@ -78,7 +79,7 @@ export function responsePanels(table, scale) {
   const sensitivity = magnitudePanel(
     {
       key: "sensitivity",
-      title: "|S| and |T|",
+      title: said("|S| and |T|"),
       short: "|S| |T|",
       names: ["|T|", "|S|"],
       legend: [
@@ -107,7 +108,7 @@ export function responsePanels(table, scale) {
   return {
     panels: [output, input, nyquist, sensitivity],
     draw({ y, u, re, im, metrics, stable, at = t, frequencies = omega }) {
-      const note = stable ? "" : "Loop not stable";
+      const note = stable ? "" : said("Loop not stable");
       output.show([step, load, ...py.map(over), { x: at, y }], [], note);
       input.show([...pu.map(over), { x: at, y: u }], [], note);
       nyquist.show(

@@ -11,11 +11,12 @@ from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
-from pages.common.parts.settings_text import UNITS, form_shown, sizes
+from pages.common.parts.settings_text import ACTION, UNITS, form_shown, sizes
 from pages.common.session.excitation import Excitation
 from pages.common.session.sheet import Sheet
 from pages.common.session.tuning import Tuning
 from pages.common.studies.single import Study
+from pages.common.words import translated
 from simc_core.algebra.factors import Factored
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import Controller
@@ -177,7 +178,7 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
         "omega": grid.omega.tolist(),
         "settings": names,
         "measures": {name: UNITS[name] for name in names},
-        "action": f"{found.controllers[0].action} action",
+        "action": translated(ACTION[found.controllers[0].action]),
         "metrics": FIGURES,
         **judgement(SHOWN),
         "unit": unit,
@@ -188,7 +189,9 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
         "unstable": unstable_ranges(
             nodes.tau_c, found.stable, lambda each: stability(subject.loop(each)).verdict == "stable"
         ),
-        "presets": list(presets_of(subject.tuning.rule, subject.model).items()),
+        "presets": [
+            (translated(name), tau_c) for name, tau_c in presets_of(subject.tuning.rule, subject.model).items()
+        ],
         "pins": [{"name": letter, "metrics": figures(judged(each, grid.omega))} for letter, each in pins],
     }
     blocks = curves(found, grid)

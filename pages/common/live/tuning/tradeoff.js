@@ -3,6 +3,7 @@
 import { S_LINE, shadeOf, U, Y } from "../kit/curves.js";
 import { nearest, round, text } from "../kit/format.js";
 import { Panel } from "../kit/panel.js";
+import { said } from "../kit/words.js";
 
 const LETTERS = "ABCD";
 const CALM_BAND = "--simc-calm-band";
@@ -18,9 +19,9 @@ const TRADE_OFFS = [
       ["Mt", "Mt", Y],
     ],
   ],
-  ["gain", "Gain margin", true, [["GM", "GM", Y]]],
-  ["phase", "Phase margin [°]", false, [["PM_deg", "PM", Y]]],
-  ["delay", "Delay margin [time]", true, [["delay_margin", "delay margin", Y]]],
+  ["gain", said("Gain margin"), true, [["GM", "GM", Y]]],
+  ["phase", said("Phase margin [°]"), false, [["PM_deg", "PM", Y]]],
+  ["delay", said("Delay margin [time]"), true, [["delay_margin", said("delay margin"), Y]]],
   [
     "iae",
     "IAE",
@@ -32,7 +33,7 @@ const TRADE_OFFS = [
   ],
   [
     "tv",
-    "TV of u",
+    said("TV of u"),
     true,
     [
       ["TV_setpoint", "r", Y],
@@ -41,7 +42,7 @@ const TRADE_OFFS = [
   ],
   [
     "overshoot",
-    "Overshoot and noise gain",
+    said("Overshoot and noise gain"),
     false,
     [
       ["overshoot", "y", Y],
@@ -104,10 +105,10 @@ export function tradeOffPanels(table, scale) {
   const price = new Panel(
     {
       key: "price",
-      title: "Speed against robustness",
+      title: said("Speed against robustness"),
       x: { label: "Ms", limits: () => [1, 3] },
       y: {
-        label: "IAE load",
+        label: said("IAE load"),
         log: true,
         limits: () => {
           const v = known(column("IAE_disturbance"));
@@ -153,7 +154,7 @@ export function tradeOffPanels(table, scale) {
       }));
       price.show(
         [{ x: column("Ms"), y: column("IAE_disturbance") }],
-        [...pins, { x: metrics.Ms, y: metrics.IAE_disturbance, color: U, label: "present" }],
+        [...pins, { x: metrics.Ms, y: metrics.IAE_disturbance, color: U, label: said("present") }],
       );
     },
   };

@@ -4,27 +4,29 @@ import { button, numbers, text } from "../kit/format.js";
 import { Instrument } from "../kit/instrument.js";
 import { strip } from "../kit/strip.js";
 import { between, mix, stencil } from "../kit/table.js";
+import { said } from "../kit/words.js";
 import { responsePanels } from "./panels.js";
 import { tradeOffPanels } from "./tradeoff.js";
 
 export class Tuning extends Instrument {
   constructor(root) {
     super(root, {
-      sliders: [{ name: "tau_c", symbol: "τ<sub>c</sub>", label: "Closed-loop time constant tau_c" }],
+      sliders: [{ name: "tau_c", symbol: "τ<sub>c</sub>", label: said("Closed-loop time constant tau_c") }],
       views: [
-        ["responses", "Responses"],
-        ["tradeoff", "Trade-off"],
+        ["responses", said("Responses")],
+        ["tradeoff", said("Trade-off")],
       ],
-      hint: "Keys: arrows, Home, End, presets 1, 2, … · space sweep · H hide · R back to begin · L or Esc leave",
+      hint: said("Keys: arrows, Home, End, presets 1, 2, … · space sweep · H hide · R back to begin · L or Esc leave"),
     });
     const wanted = document.createElement("label");
-    wanted.title = "Sets tau_c to the smallest with this Ms";
-    wanted.innerHTML = `Fastest τ<sub>c</sub> with Ms up to <input class="ms" inputmode="decimal" maxlength="100"
-      aria-label="Fastest tau_c with Ms up to">`;
+    wanted.title = said("Sets tau_c to the smallest with this Ms");
+    wanted.innerHTML = `${said("Fastest τ<sub>c</sub> with Ms up to")} <input class="ms" inputmode="decimal"
+      maxlength="100">`;
     const peak = wanted.lastChild;
+    peak.setAttribute("aria-label", said("Fastest tau_c with Ms up to"));
     const find = () => peak.value && this.ask({ Ms: peak.value }); // as typed: Python reads it
     peak.addEventListener("keydown", (event) => event.key === "Enter" && find());
-    root.querySelector(".extras").append(wanted, button("Find", wanted.title, find));
+    root.querySelector(".extras").append(wanted, button(said("Find"), wanted.title, find));
   }
 
   take(message) {
@@ -47,7 +49,9 @@ export class Tuning extends Instrument {
     this.root
       .querySelector(".presets")
       .replaceChildren(
-        ...table.presets.map(([name], i) => button(`${i + 1} ${name}`, `Key ${i + 1}`, () => this.preset(i + 1))),
+        ...table.presets.map(([name], i) =>
+          button(`${i + 1} ${name}`, said("Key {n}", { n: i + 1 }), () => this.preset(i + 1)),
+        ),
       );
     this.rebuild(table.t.at(-1));
   }
@@ -121,7 +125,7 @@ export class Tuning extends Instrument {
       this.table,
       metrics,
       exact,
-      stable ? "" : "Not stable: margins and IAE do not exist",
+      stable ? "" : said("Not stable: margins and IAE do not exist"),
     );
   }
 
@@ -130,11 +134,19 @@ export class Tuning extends Instrument {
   }
 
   words({ tau_c, stable, metrics: m }) {
-    if (!stable) return `tau_c ${text(tau_c)}: the loop is not stable`;
-    return (
-      `tau_c ${text(tau_c)}: Ms ${text(m.Ms)}, gain margin ${text(m.GM)}, phase margin ${text(m.PM_deg)} degrees, ` +
-      `IAE set point ${text(m.IAE_setpoint)}, load ${text(m.IAE_disturbance)}, ` +
-      `overshoot ${text(100 * m.overshoot, 3)} percent`
+    if (!stable) return said("tau_c {tau_c}: the loop is not stable", { tau_c: text(tau_c) });
+    return said(
+      "tau_c {tau_c}: Ms {Ms}, gain margin {GM}, phase margin {PM} degrees, " +
+        "IAE set point {IAE_r}, load {IAE_d}, overshoot {overshoot} percent",
+      {
+        tau_c: text(tau_c),
+        Ms: text(m.Ms),
+        GM: text(m.GM),
+        PM: text(m.PM_deg),
+        IAE_r: text(m.IAE_setpoint),
+        IAE_d: text(m.IAE_disturbance),
+        overshoot: text(100 * m.overshoot, 3),
+      },
     );
   }
 }
