@@ -3,6 +3,7 @@
 import streamlit as st
 
 from pages.common.parts.refusals import explain_refusal
+from pages.common.parts.tabs import tabs
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.shell import header
@@ -12,17 +13,21 @@ from pages.common.take_home.code import code
 from pages.common.take_home.report_view import report_view
 from pages.common.take_home.schedule import schedule
 from pages.common.take_home.way_out import way_out
+from pages.common.words import words
 from simc_core.errors import BoxError, FormError
+from simc_core.wording import said
 
-VIEWS = ("Settings", "Code", "Schedule", "Report")
+VIEWS = (said("Settings"), said("Code"), said("Schedule"), said("Report"))
 
 
 def in_the_box(design: Design, present: Study) -> None:
     """What is typed, the proof, what to mind; or what can be done where the box has no such form."""
     if not design.box:
         st.info(
-            "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
-            "numbers are another controller in another box."
+            words(
+                "Choose what you type the settings into. Forms, units, ranges and filters differ: the same three "
+                "numbers are another controller in another box."
+            )
         )
         return
     try:
@@ -39,7 +44,7 @@ def in_the_box(design: Design, present: Study) -> None:
 
 design = header.show("take_home")
 with explain_refusal():
-    with st.spinner("Tuning the loop"):
+    with st.spinner(words("Tuning the loop")):
         present = present_study(design)
     with st.container(key="stack_take_home"):
         controls, shown = st.columns([4, 11], gap="medium")
@@ -49,9 +54,7 @@ with explain_refusal():
         if design.box:
             take_home.in_the_box_now(design)
     with shown:
-        for view, show in zip(
-            st.tabs(VIEWS, key="home_views", on_change="rerun"), (in_the_box, code, schedule, report_view), strict=True
-        ):
+        for view, show in zip(tabs(VIEWS, "home_views"), (in_the_box, code, schedule, report_view), strict=True):
             if view.open:
                 with view, explain_refusal():
                     show(design, present)

@@ -19,7 +19,7 @@ from scipy import signal
 
 from simc_core import checks
 from simc_core.algebra.factors import Factored
-from simc_core.controllers.forms import Controller, ParallelPid, needs_filter
+from simc_core.controllers.forms import Controller, ParallelPid
 from simc_core.errors import FormError, InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
@@ -51,7 +51,7 @@ def to_ss(system: Plant | Controller, pade_order: int | None = None) -> control.
     """
     form = system.factored
     if form.relative_degree < 0:
-        raise FormError(needs_filter("in a state space"))
+        raise FormError(said("tau_F must be > 0 for derivative action in a state space, found 0"))
     parts = [control.ss([], [], [], [[form.gain]])]
     parts += [control.tf2ss(num, den) for num, den in _sections(form)]
     if form.theta:
@@ -113,7 +113,7 @@ def closed_loop(loop: Loop, pade_order: int | None = None) -> control.StateSpace
     plant, form = to_ss(loop.plant, pade_order), loop.controller.to_parallel()
     A, B, C, D = (np.asarray(matrix, dtype=float) for matrix in (plant.A, plant.B, plant.C, plant.D))
     if form.tau_F == 0 and form.Kd and (D.any() or form.c):
-        raise FormError(needs_filter("on a signal that may jump"))
+        raise FormError(said("tau_F must be > 0 for derivative action on a signal that may jump, found 0"))
     # measured: y and y' of the plant, driven by u + d; the regulator turns r, y and y' into u
     Ar, Br, Cr, Dr = _filtered(form) if form.tau_F else _unfiltered(form)
     C, D = np.vstack([C, C @ A]), np.vstack([D, C @ B])

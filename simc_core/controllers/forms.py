@@ -340,9 +340,4 @@ class IController(AnyForm):
         return ParallelPid(0.0, self.K_I)
 
 
-def needs_filter(why: str) -> str:
-    """The refusal of a derivative without a filter. why: what it acts on, as "on ..."."""
-    return f"tau_F must be > 0 for derivative action {why}, found 0"
-
-
 Controller = SeriesPid | IdealPid | ParallelPid | IController

@@ -6,6 +6,7 @@ import numpy as np
 
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure
+from simc_core.wording import said
 
 DASHES = ("solid", "dash")
 HIGHEST = 5.0  # Ms beyond it is off the picture: such a loop is near its limit
@@ -35,9 +36,9 @@ def schedule_figure(
         for (name, (x, Ms)), dash in zip(peaks.items(), DASHES, strict=False)
     ]
     x = next(iter(peaks.values()))[0][[0, -1]]
-    traces.append(palette.line(x, [limit, limit], "warning", palette.NEUTRAL, "dot", 1.4, hoverinfo="skip"))
+    traces.append(palette.line(x, [limit, limit], said("warning"), palette.NEUTRAL, "dot", 1.4, hoverinfo="skip"))
     traces.append(
-        palette.line(*rows, "rows", palette.S, mode="markers", marker={"color": palette.S, "size": 8})
+        palette.line(*rows, said("rows"), palette.S, mode="markers", marker={"color": palette.S, "size": 8})
         | {"hovertemplate": "%{y:.4g}"}
     )
     finite = [float(np.max(Ms[np.isfinite(Ms)], initial=limit)) for _, Ms in (*peaks.values(), rows)]
@@ -45,8 +46,8 @@ def schedule_figure(
     lost = any(np.any(~np.isfinite(Ms)) for _, Ms in peaks.values())
     return palette.figure(
         traces,
-        palette.axis("scheduling value", hoverformat=".4g"),
+        palette.axis(said("scheduling value"), hoverformat=".4g"),
         palette.axis("Ms", range=[1.0, top]),
         height,
-        annotations=[palette.note("Not stable where the curve is missing")] if lost else [],
+        annotations=[palette.note(said("Not stable where the curve is missing"))] if lost else [],
     )

@@ -1,7 +1,7 @@
 """Curves with axes and units as SVG text, for reports, without a browser."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from html import escape
 
 import numpy as np
@@ -17,7 +17,15 @@ FAR = 5.0  # heights of the steps beyond which a growing curve is cut off
 Curve = tuple[np.ndarray, np.ndarray, tuple[str, str, float]]  # x, y, and colour, dash, width
 
 
-def figure(curves: Mapping[str, Curve], x_title: str, y_title: str, key: str, view: float = math.inf) -> str:
+def figure(
+    curves: Mapping[str, Curve],
+    x_title: str,
+    y_title: str,
+    key: str,
+    view: float = math.inf,
+    label: str = "",
+    written: Callable[[float], str] = "{:g}".format,
+) -> str:
     """An <svg> element.
 
     Parameters
@@ -30,6 +38,10 @@ def figure(curves: Mapping[str, Curve], x_title: str, y_title: str, key: str, vi
         Of the figure on its page.
     view : float
         |y| beyond it is cut off.
+    label : str
+        What it shows, for those who do not see it; made of both titles unless given.
+    written : callable
+        A number of an axis as text.
     """
     inside = {name: (x, np.clip(y, -view, view), style) for name, (x, y, style) in curves.items()}
     xs, ys = (np.concatenate([curve[axis] for curve in inside.values()]) for axis in (0, 1))
@@ -39,15 +51,15 @@ def figure(curves: Mapping[str, Curve], x_title: str, y_title: str, key: str, vi
     y = _Axis(low - room, high + room, HEIGHT - BOTTOM, TOP)
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" role="img" '
-        f'aria-label="{escape(f"{y_title} over {x_title}")}" font-family="sans-serif" font-size="10">',
+        f'aria-label="{escape(label or f"{y_title} over {x_title}")}" font-family="sans-serif" font-size="10">',
         f'<clipPath id="{key}"><rect x="{LEFT}" y="{TOP}" width="{WIDTH - LEFT - RIGHT}" '
         f'height="{HEIGHT - TOP - BOTTOM}"/></clipPath>',
     ]
     for value in x.ticks():
-        parts.append(_text(x.place(value), HEIGHT - BOTTOM + 13, f"{value:g}", "middle"))
+        parts.append(_text(x.place(value), HEIGHT - BOTTOM + 13, written(value), "middle"))
     for value in y.ticks():
         parts.append(_line(LEFT, y.place(value), WIDTH - RIGHT, y.place(value), palette.GRID))
-        parts.append(_text(LEFT - 5, y.place(value) + 3.5, f"{value:g}", "end"))
+        parts.append(_text(LEFT - 5, y.place(value) + 3.5, written(value), "end"))
     parts += [
         _line(LEFT, HEIGHT - BOTTOM, WIDTH - RIGHT, HEIGHT - BOTTOM, palette.NEUTRAL),
         _line(LEFT, TOP, LEFT, HEIGHT - BOTTOM, palette.NEUTRAL),

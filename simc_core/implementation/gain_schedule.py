@@ -19,16 +19,33 @@ from simc_core.plants.models import Model
 from simc_core.rules.domain import in_words
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins_many
+from simc_core.wording import Numeral, Text, joined, said
 
 MOST_ROWS = 50
 POINTS = 121
 TOO_HIGH = 1.1  # Ms between rows over the highest one at a row, above which a warning is due
 BETWEEN = ("model", "PB")
 GAIN_OF_PLANT = ("linear", "exponential")
+PEAKS = {
+    "linear": said(
+        "Ms is {Ms:.3g} at {x:g} if the gain of the plant is linear between rows, {design:.3g} at the rows: add a row "
+        "there",
+        Ms=math.nan,
+        x=math.nan,
+        design=math.nan,
+    ),
+    "exponential": said(
+        "Ms is {Ms:.3g} at {x:g} if the gain of the plant is exponential between rows, {design:.3g} at the rows: add a "
+        "row there",
+        Ms=math.nan,
+        x=math.nan,
+        design=math.nan,
+    ),
+}
 FORM_OF: dict[type, str] = {
-    SeriesPid: "the series form",
-    IdealPid: "the ideal form",
-    IController: "pure integral action",
+    SeriesPid: said("the series form"),
+    IdealPid: said("the ideal form"),
+    IController: said("pure integral action"),
 }
 
 
@@ -67,20 +84,38 @@ class GainSchedule:
         object.__setattr__(self, "models", models)
         if len(values) != len(models) or len(values) < 2:
             raise InvalidParameter(
-                f"values and models must be as many, 2 at least, found {len(values)} and {len(models)}"
+                said(
+                    "values and models must be as many, 2 at least, found {values} and {models}",
+                    values=len(values),
+                    models=len(models),
+                )
             )
         if not all(one < other for one, other in zip(self.values, self.values[1:], strict=False)):
-            raise InvalidParameter(f"values must increase, found {', '.join(f'{x:g}' for x in self.values)}")
+            raise InvalidParameter(
+                said("values must increase, found {values}", values=joined([Numeral(f"{x:g}") for x in self.values]))
+            )
         for i, model in enumerate(models):
             if not isinstance(model, Model) or type(model) is not type(models[0]):
                 raise InvalidParameter(
-                    f"models must be reduced models of one kind, found {in_words(models[0])} in row 1 and "
-                    f"{in_words(model)} in row {i + 1}"
+                    said(
+                        "models must be reduced models of one kind, found {first} in row 1 and {other} in row {row}",
+                        first=in_words(models[0]),
+                        other=in_words(model),
+                        row=i + 1,
+                    )
                 )
             if model.plant.k * models[0].plant.k < 0:
-                raise InvalidParameter(f"gains must have one sign, found {model.plant.k:g} in row {i + 1}")
+                raise InvalidParameter(
+                    said("gains must have one sign, found {k:g} in row {row}", k=model.plant.k, row=i + 1)
+                )
         if self.between not in BETWEEN:
-            raise InvalidParameter(f"between must be one of {', '.join(BETWEEN)}, found {self.between!r}")
+            raise InvalidParameter(
+                said(
+                    "between must be one of {choices}, found {between!r}",
+                    choices=", ".join(BETWEEN),
+                    between=self.between,
+                )
+            )
 
     @property
     def rows(self) -> tuple[Controller, ...]:
@@ -90,7 +125,9 @@ class GainSchedule:
     def model(self, x: float, gain: str = "linear") -> Model:
         """The plant at the scheduling value x, its gain linear or exponential between rows, the rest linear."""
         if gain not in GAIN_OF_PLANT:
-            raise InvalidParameter(f"gain must be one of {', '.join(GAIN_OF_PLANT)}, found {gain!r}")
+            raise InvalidParameter(
+                said("gain must be one of {choices}, found {gain!r}", choices=", ".join(GAIN_OF_PLANT), gain=gain)
+            )
         row, part = self._place(x)
         one, other = self.models[row], self.models[row + 1]
 
@@ -110,8 +147,14 @@ class GainSchedule:
         one, other = (_with_times(self.rule(self.models[i])) for i in (row, row + 1))
         if type(one) is not type(other):
             raise InvalidParameter(
-                f"settings of one form can be interpolated only, found {FORM_OF[type(one)]} in row {row + 1} and "
-                f"{FORM_OF[type(other)]} in row {row + 2}: interpolate the model"
+                said(
+                    "settings of one form can be interpolated only, found {first} in row {row} and {second} in "
+                    "row {next_row}: interpolate the model",
+                    first=FORM_OF[type(one)],
+                    row=row + 1,
+                    second=FORM_OF[type(other)],
+                    next_row=row + 2,
+                )
             )
 
         def middle(name: str) -> float:
@@ -143,7 +186,7 @@ class GainSchedule:
         """The largest of `peaks`."""
         return float(self.peaks(gain, points)[1].max())
 
-    def warnings(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[Text, ...]:
         """Where Ms between rows is more than a tenth above that at the rows."""
         at_rows = margins_many([Loop(m.plant, c) for m, c in zip(self.models, self.rows, strict=True)])
         design = max(each.Ms if each.stable else math.inf for each in at_rows)
@@ -151,10 +194,7 @@ class GainSchedule:
         for gain in GAIN_OF_PLANT:
             x, Ms = self.peaks(gain)
             if Ms.max() > TOO_HIGH * design:
-                told.append(
-                    f"Ms is {Ms.max():.3g} at {x[np.argmax(Ms)]:g} if the gain of the plant is {gain} between rows, "
-                    f"{design:.3g} at the rows: add a row there"
-                )
+                told.append(PEAKS[gain].put(Ms=float(Ms.max()), x=float(x[np.argmax(Ms)]), design=design))
         return tuple(told)
 
     def _place(self, x: float) -> tuple[int, float]:

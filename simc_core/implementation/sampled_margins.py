@@ -17,6 +17,7 @@ from simc_core.sensitivity.crossings import Crossings
 from simc_core.sensitivity.log_response import Asymptote, FactoredResponse
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import NOT_STABLE, Margins, margins_from
+from simc_core.wording import said
 
 PARTS = 32  # into which a bracket is cut at a time
 CUTS_ZERO, CUTS_PEAK = 10, 7  # 32^10 = 2^50; peaks are flat
@@ -71,13 +72,22 @@ def sampled_margins(loop: Loop, h: float, law: str = "backward", delay_scans: in
     1.6908
     """
     if not isinstance(loop, Loop):
-        raise InvalidParameter(f"loop must be a Loop, found {type(loop).__name__}: nested loops are not sampled")
+        raise InvalidParameter(
+            said("loop must be a Loop, found {what}: nested loops are not sampled", what=type(loop).__name__)
+        )
     h = checks.positive_time("h", h)
     law_for(law, loop.controller.to_parallel(), h)
     sampled = SampledLoop(loop, h, law, scans("delay_scans", delay_scans))
     if loop.plant.theta > MOST_PERIODS * h:
         shortest = loop.plant.theta / MOST_PERIODS
-        raise InvalidParameter(f"h must be >= theta/{MOST_PERIODS} = {shortest:g}, found {h:g}")
+        raise InvalidParameter(
+            said(
+                "h must be >= theta/{most_periods} = {shortest:g}, found {h:g}",
+                most_periods=MOST_PERIODS,
+                shortest=shortest,
+                h=h,
+            )
+        )
     if not sampled.stable:
         return NOT_STABLE
     crossed = _crossings(sampled)
@@ -127,7 +137,7 @@ def longest_sampling_period(loop: Loop, law: str = "backward", delay_scans: int 
     more, delay_scans = checks.real("more", more, 1e-6, 10.0), scans("delay_scans", delay_scans)
     continuous = margins(loop)
     if not continuous.stable:
-        raise NotStable("the loop must be stable with a continuous controller, found one that is not")
+        raise NotStable(said("the loop must be stable with a continuous controller, found one that is not"))
     pid, allowed = loop.controller.to_parallel(), continuous.Ms * (1 + more)
     limit = 2 * pid.tau_F if known_law(law) == "tustin" and (pid.tau_F or pid.Kd) else checks.LONGEST_TIME
     law_for(law, pid, 0.0 if pid.tau_F else 1.0)

@@ -19,6 +19,7 @@ from simc_core.errors import FormError, InvalidParameter
 from simc_core.implementation.gain_schedule import GAIN_OF_PLANT, POINTS, GainSchedule
 from simc_core.loops.loop import Loop
 from simc_core.sensitivity.margins import margins_many
+from simc_core.wording import said
 
 MOST_PARTS = 20
 PARTS = 5  # between two rows, where the model is interpolated
@@ -110,9 +111,15 @@ class ScheduleTable:
                 row = self.schedule.settings(x).to_ideal()
             except FormError as error:
                 raise InvalidParameter(
-                    f"settings must have an ideal form to be tabulated, found at {x:g}: {error}"
+                    said(
+                        "settings must have an ideal form to be tabulated, found at {x:g}: {error}",
+                        x=x,
+                        error=str(error),
+                    )
                 ) from None
             if math.isinf(row.tau_I):
-                raise InvalidParameter(f"settings must have integral action to be tabulated, found none at {x:g}")
+                raise InvalidParameter(
+                    said("settings must have integral action to be tabulated, found none at {x:g}", x=x)
+                )
             rows.append(row)
         return tuple(rows)

@@ -21,7 +21,7 @@ def kuhn(plant: Plant, kind: str = "PI") -> IdealPid:
 
 def kuhn_fast(plant: Plant, kind: str = "PI") -> IdealPid:
     """The fast settings. [K95]"""
-    k, TS = _gain_and_sum(plant, kind, "Kuhn, fast")
+    k, TS = _gain_and_sum(plant, kind, said("Kuhn, fast"))
     return IdealPid(1 / k, 0.7 * TS) if kind == "PI" else IdealPid(2 / k, 0.8 * TS, 0.194 * TS)
 
 

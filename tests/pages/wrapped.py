@@ -9,7 +9,9 @@ import pandas as pd
 from streamlit.testing.v1 import AppTest
 
 from pages.common.session import state
+from pages.common.take_home.written import LANGUAGES
 from pages.common.words import catalogues
+from simc_core import BOXES
 from simc_core.published.sources import SOURCES
 from simc_core.wording import Text
 
@@ -23,11 +25,11 @@ NOT_SEEN = {  # fields of Streamlit's messages that hold names, addresses and co
     *("query_string", "string_values", "raw_values", "content_hash", "source_code", "isolate_styles"),
     *("mime_type"),
 }
-FOREIGN = {"text", "mine", "known"}
-FORMULAS = {
+FOREIGN = {"text", "mine", "known", "file"}
+FORMULAS = {  # as code, and typed numbers, which every language writes with points
     "2.2 exp(-20s)/(180s+1)",
     "Time\tPV\tOP\n0\t20.5\t40\n1\t20.5\t45",
-}  # as code, which every language writes with points
+}
 IN_FIGURES = {"text", "title", "name", "hovertemplate", "customdata"}
 MARKUP = re.compile(
     r"(?P<code>(?P<fence>`+).*?(?<!`)(?P=fence)(?!`))|\$\$.*?\$\$|\$[^$]*\$|%\{[^{}]*\}|<style>.*?</style>|</?[a-zA-Z][^<>]*>|:material/\w+:|:\w+\["
@@ -51,6 +53,8 @@ SYMBOLS = {
     "lim",
     "rad",
     "PSB",
+    "tau",
+    "alpha",
     "CSV",
     "JSON",
     "SVG",
@@ -59,6 +63,19 @@ SYMBOLS = {
 REFERENCES = [
     part for full in SOURCES.values() if not isinstance(full, Text) for part in (full, full.split(" https:")[0])
 ]
+# What makers call their boxes, fields and languages; where they use a word of English, it is not exempt.
+NAMES = {
+    *(language.title for language in LANGUAGES.values()),
+    *(each.name for box in BOXES.values() for each in box.fields),
+    *(
+        name
+        for box in BOXES.values()
+        for text in (*box.structures, *box.actions)
+        for name in (text, *text.split(" = "))
+    ),
+}
+PRODUCTS = [re.escape(name) for name in NAMES if not isinstance(name, Text) and (name != name.lower() or "-" in name)]
+PRODUCT = re.compile(rf"(?<!\w)(?:{'|'.join(sorted(PRODUCTS, key=len, reverse=True))})(?!\w)")
 ADDRESS = re.compile(r"https\\?://[^\s\"\])]+")
 NAME_OF_LOOP = re.compile(r"Lesson \w+")  # of a lesson, which links hold
 SOURCE = re.compile(r"\[[A-Z]{2,4}\d{2}[^\]]*\]|\b[A-Z]{3,4}\d{2}\b")
@@ -105,7 +122,7 @@ def outside(text: str) -> str:
     for reference in REFERENCES:
         text = text.replace(reference, " ")
     bare = ADDRESS.sub(" ", MARKUP.sub(" ", _without_brackets(text)))
-    return SOURCE.sub(" ", unescape(_without_brackets(bare)))
+    return PRODUCT.sub(" ", SOURCE.sub(" ", unescape(_without_brackets(bare))))
 
 
 def _without_brackets(text: str) -> str:
@@ -129,7 +146,7 @@ def visible(app: AppTest) -> Iterator[tuple[str, str]]:
                 yield from _of_table(node.value, getattr(proto, "columns", ""))
             elif kind == "BidiComponent":
                 yield from _of_component(proto)
-            elif kind != "Text":  # addresses, which have no language
+            elif kind not in ("Text", "Code"):  # addresses and programs, which have no language
                 yield from ((f"{kind}, {where}", text) for where, text in _of_proto(proto))
         for child in getattr(node, "children", {}).values():
             yield from walk(child)

@@ -5,8 +5,9 @@ from html import escape
 
 from pages.common.parts.foreign_text import exact
 from pages.common.session.sheet import Sheet
-from pages.common.words import number
-from simc_core.wording import Text
+from pages.common.words import translated
+from simc_core.notation import number as core_number
+from simc_core.wording import Text, joined
 
 PLAIN = re.compile(r"(?:[^\W_]|[%°/·⁻²³ ()])*")  # nothing in it that Markdown or Streamlit would read as more than text
 
@@ -70,9 +71,15 @@ def _factor(unit: str) -> str:
     return f"({unit})" if "/" in unit else unit
 
 
+def measured(value: float, unit: str, digits: int = 4) -> str:
+    """A number with its unit, where that has a name, to stand in a Text."""
+    told = core_number(value, digits)
+    return joined((told, unit), " ") if unit else told
+
+
 def time_text(value: float, sheet: Sheet, digits: int = 4) -> str:
     """A time as a number with its unit, where that has a name."""
-    return f"{number(value, digits)} {sheet.time_unit}".rstrip()
+    return translated(measured(value, sheet.time_unit, digits))
 
 
 def with_unit(label: str, unit: str) -> str:
@@ -84,4 +91,4 @@ def with_unit(label: str, unit: str) -> str:
 
 def with_plain_unit(label: str, unit: str) -> str:
     """The same where it is not read as Markdown."""
-    return f"{label} [{unit}]" if unit else label
+    return joined((label, f" [{unit}]"), "") if unit else label

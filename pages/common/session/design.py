@@ -19,6 +19,7 @@ from simc_core import BOXES, Plant, Uncertainty, checks
 from simc_core.controllers.forms import FORMS, Controller
 from simc_core.errors import InvalidParameter
 from simc_core.plants.step_facts import StepFacts
+from simc_core.wording import said
 
 SOURCES = ("simc", "own")
 MOST_PINS = 4
@@ -63,7 +64,7 @@ class Design:
         one_of("source", self.source, SOURCES)
         one_of("box", self.box, ("", *BOXES))
         if self.source == "own" and self.own is None:
-            raise InvalidParameter("own must be given where the controller is my settings, found nothing")
+            raise InvalidParameter(said("own must be given where the controller is my settings, found nothing"))
         object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))
         object.__setattr__(self, "facts", of_plant(self.facts, self.plant))
         if self.origin is not None and self.origin.plant != self.plant:

@@ -5,6 +5,7 @@ from dataclasses import replace
 from pages.common.session.actuator import ACTUATION, Actuator
 from pages.common.session.design import Design
 from simc_core.errors import InvalidParameter
+from simc_core.wording import Numeral, said
 
 IN_LINKS = {"tracking_time": "T_t", "h": "sampling", "delay_scans": "scans"}  # h alone is taken, by Tuning
 
@@ -67,6 +68,13 @@ def _moved(actuator: Actuator, old: float | None, new: float | None) -> Actuator
         return actuator
     low, high = (None if u is None else u + old - new for u in (actuator.u_min, actuator.u_max))
     if (low or 0.0) > 0 or (high or 0.0) < 0:
-        ends = "no limit" if low is None else f"{low + new:g}", "no limit" if high is None else f"{high + new:g}"
-        raise InvalidParameter(f"OP_now must be within the limits of the output, {' to '.join(ends)}, found {new:g}")
+        lowest, highest = (said("no limit") if end is None else Numeral(f"{end + new:g}") for end in (low, high))
+        raise InvalidParameter(
+            said(
+                "OP_now must be within the limits of the output, {low} to {high}, found {new:g}",
+                low=lowest,
+                high=highest,
+                new=new,
+            )
+        )
     return replace(actuator, u_min=low, u_max=high)

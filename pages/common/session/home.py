@@ -9,6 +9,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.implementation.exports.export import LANGUAGES
 from simc_core.implementation.gain_schedule import BETWEEN
 from simc_core.plants.models import Model
+from simc_core.wording import said
 
 ROUNDINGS = ("safe", "none")
 EXPORTED = ("design", "typed")
@@ -63,14 +64,19 @@ class Home:
 
 
 def _point(i: int, row: Point) -> Point:
-    values = checks.items(f"row {i}", row, 5)
+    name = said("row {i}", i=i)
+    values = checks.items(name, row, 5)
     if len(values) not in MODELS:
         raise InvalidParameter(
-            f"row {i} must have 3 to 5 numbers, scheduling value, k, theta, tau1, tau2, found {len(values)}"
+            said(
+                "{name} must have 3 to 5 numbers, scheduling value, k, theta, tau1, tau2, found {n}",
+                name=name,
+                n=len(values),
+            )
         )
-    found = tuple(checks.real(f"row {i}", value) for value in values)
+    found = tuple(checks.real(name, value) for value in values)
     try:
         MODELS[len(found)](*found[1:])
     except InvalidParameter as error:
-        raise InvalidParameter(f"row {i}: {error}") from None
+        raise InvalidParameter(said("{name}: {error}", name=name, error=str(error))) from None
     return found

@@ -43,6 +43,7 @@ from simc_core.controllers.forms import Controller, IController, IdealPid, Paral
 from simc_core.errors import SimcError
 from simc_core.notation import plain
 from simc_core.plants.step_facts import SettlingFacts, SlopeFacts, StepFacts
+from simc_core.wording import said
 
 LOST_PLUS = re.compile(r"((?<![A-Za-z])[sp](?:(?:\^|\*\*)\d+)?) (?=[\d.])")
 # What course systems, mails and shops hang on every link to follow its reader: none of our business.
@@ -141,9 +142,11 @@ def _flat(design: Design) -> dict[str, str]:
 
 def _changed(design: Design, name: str, text: str) -> Design:
     if len(text) > LONGEST_VALUE:
-        raise SimcError(f"at most {LONGEST_VALUE} characters are read, found {len(text)}")
+        raise SimcError(
+            said("at most {longest_value} characters are read, found {n}", longest_value=LONGEST_VALUE, n=len(text))
+        )
     if name not in PLACES:
-        raise SimcError("no parameter has this name")
+        raise SimcError(said("no parameter has this name"))
     return put(design, name, origin_of(text, design.plant) if name == "origin" else _read(name, text))
 
 
@@ -175,7 +178,7 @@ def _read(name: str, text: str):
     if name == "pins":
         return tuple(map(_pin, text.split("!")))
     if name == "points":
-        return tuple(tuple(_read("a number", number) for number in point.split("~")) for point in text.split("!"))
+        return tuple(tuple(_read(said("a number"), number) for number in point.split("~")) for point in text.split("!"))
     if name in SETTINGS:
         return settings_of(text)
     if name in FACTS:
@@ -187,7 +190,7 @@ def _read(name: str, text: str):
     try:
         return float(text)
     except ValueError:
-        raise SimcError("a number was expected") from None
+        raise SimcError(said("a number was expected")) from None
 
 
 def _plant(text: str) -> Plant:
@@ -204,7 +207,7 @@ def _plant(text: str) -> Plant:
         try:
             return parse_plant(mended)
         except SimcError:
-            raise SimcError(f"{error}; a + in an address is written %2B") from None
+            raise SimcError(said("{error}; a + in an address is written %2B", error=error)) from None
 
 
 def settings_text(controller: Controller | None) -> str:
@@ -220,11 +223,24 @@ def settings_of(text: str) -> Controller:
     """The controller of a text. Raises SimcError."""
     form, *values = text.split("~")
     if form not in FORM_NAMES:
-        raise SimcError(f"settings begin with one of {', '.join(FORM_NAMES)}, found {form[:20]}")
+        raise SimcError(
+            said(
+                "settings begin with one of {form_names}, found {form}",
+                form_names=", ".join(FORM_NAMES),
+                form=form[:20],
+            )
+        )
     kind = FORM_NAMES[form]
     wanted = len(kind.SETTINGS) + len(kind.OPTIONAL)
     if len(values) != wanted:
-        raise SimcError(f"settings in {form} form have {wanted} values separated by ~, found {len(values)}")
+        raise SimcError(
+            said(
+                "settings in {form} form have {wanted} values separated by ~, found {n}",
+                form=form,
+                wanted=wanted,
+                n=len(values),
+            )
+        )
     return kind(*(_read("settings", value) for value in values))
 
 
@@ -244,9 +260,9 @@ def facts_of(text: str) -> StepFacts:
     """The facts of a text. Raises SimcError."""
     word, *values = text.split("~")
     if word not in ("step", "movement", "slope"):
-        raise SimcError(f"facts begin with one of step, movement, slope, found {word[:20]}")
+        raise SimcError(said("facts begin with one of step, movement, slope, found {word}", word=word[:20]))
     if len(values) != 4:
-        raise SimcError(f"facts of a step test have 4 values separated by ~, found {len(values)}")
+        raise SimcError(said("facts of a step test have 4 values separated by ~, found {n}", n=len(values)))
     numbers = [_read("facts of a step test", value) for value in values]
     return SlopeFacts(*numbers) if word == "slope" else SettlingFacts(*numbers, word == "movement")
 
@@ -262,6 +278,10 @@ def _pin(text: str) -> Tuning | Controller:
     if values[0] in FORM_NAMES:
         return settings_of(text)
     if not 0 <= len(TUNING_FIELDS) - len(values) <= 3:  # links of before have no speed, tau_F or rule
-        raise SimcError(f"a pinned tuning has {len(TUNING_FIELDS)} values separated by ~, found {len(values)}")
+        raise SimcError(
+            said(
+                "a pinned tuning has {n} values separated by ~, found {given}", n=len(TUNING_FIELDS), given=len(values)
+            )
+        )
     given = dict(zip(TUNING_FIELDS, values, strict=False))
     return Tuning(**{name: _read(name, value) for name, value in given.items() if value})

@@ -13,6 +13,7 @@ from pages.common.session import links
 from pages.common.session.design import Design
 from pages.common.session.loops import MOST_LOOPS, Entry, Loops, new_id
 from simc_core.errors import SimcError
+from simc_core.wording import said
 
 FORMAT = "simc-project"
 VERSION = 2
@@ -54,18 +55,18 @@ def load(data: bytes) -> tuple[Loops | None, str]:
 def _loops(content: dict) -> Loops:
     listed, current = content.get("loops"), content.get("current", 0)
     if not isinstance(listed, list) or not 1 <= len(listed) <= MOST_LOOPS:
-        raise SimcError(f'"loops" must be a list of 1 to {MOST_LOOPS} loops')
+        raise SimcError(said('"loops" must be a list of 1 to {most_loops} loops', most_loops=MOST_LOOPS))
     if isinstance(current, bool) or not isinstance(current, int):
-        raise SimcError('"current" must be the place of a loop in the list')
+        raise SimcError(said('"current" must be the place of a loop in the list'))
     return Loops(tuple(_entry(each) for each in listed), current)
 
 
 def _entry(each) -> Entry:
     fields = each.get("design") if isinstance(each, dict) else None
     if not isinstance(fields, dict) or not all(isinstance(value, str) for value in fields.values()):
-        raise SimcError('"design" must be an object of texts')
+        raise SimcError(said('"design" must be an object of texts'))
     if "plant" not in fields:
-        raise SimcError('"design" must hold a plant')
+        raise SimcError(said('"design" must hold a plant'))
     known = each.get("id")
     return Entry(_design(fields), known if isinstance(known, str) and ID.fullmatch(known) else new_id())
 

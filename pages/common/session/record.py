@@ -13,6 +13,7 @@ from simc_core.errors import InvalidParameter, SimcError
 from simc_core.identification.estimator.structures import STRUCTURES
 from simc_core.identification.trend import LARGEST_INSTANT
 from simc_core.plants.plant import scaled
+from simc_core.wording import said
 
 MOST_STRUCTURES = 4  # that fit nearly as well, and are kept
 DIGITS = 7  # of the numbers of an uncertainty
@@ -48,15 +49,29 @@ class Chosen:
 
     def __post_init__(self) -> None:
         if len(self.example) > LONGEST_KEY or (not self.example.replace("_", "a").isalnum() and self.example):
-            raise InvalidParameter(f"example must be a key of at most {LONGEST_KEY} letters, found {self.example[:30]}")
+            raise InvalidParameter(
+                said(
+                    "example must be a key of at most {longest_key} letters, found {example}",
+                    longest_key=LONGEST_KEY,
+                    example=self.example[:30],
+                )
+            )
         if self.structure not in ("", *STRUCTURES):
-            raise InvalidParameter(f"structure must be one of {', '.join(STRUCTURES)}, found {self.structure[:30]}")
+            raise InvalidParameter(
+                said(
+                    "structure must be one of {structures}, found {structure}",
+                    structures=", ".join(STRUCTURES),
+                    structure=self.structure[:30],
+                )
+            )
         for name in ("begin", "end"):
             if getattr(self, name) is not None:
                 number = checks.real(name, getattr(self, name), -LARGEST_INSTANT, LARGEST_INSTANT)
                 object.__setattr__(self, name, number)
         if self.begin is not None and self.end is not None and not self.begin < self.end:
-            raise InvalidParameter(f"end must be > begin = {self.begin:g}, found {self.end:g}")
+            raise InvalidParameter(
+                said("end must be > begin = {begin:g}, found {end:g}", begin=self.begin, end=self.end)
+            )
         for low, high in checks.items("bad", self.bad, MOST_BAD):
             checks.real("end of a bad stretch", high, checks.real("bad", low, -LARGEST_INSTANT), LARGEST_INSTANT)
 
@@ -81,17 +96,30 @@ class Origin:
     def __post_init__(self) -> None:
         put = object.__setattr__
         if self.structure not in PARAMETERS:
-            raise InvalidParameter(f"structure must be one of {', '.join(PARAMETERS)}, found {self.structure[:30]}")
+            raise InvalidParameter(
+                said(
+                    "structure must be one of {parameters}, found {structure}",
+                    parameters=", ".join(PARAMETERS),
+                    structure=self.structure[:30],
+                )
+            )
         wanted = len(PARAMETERS[self.structure])
         if len(self.errors) != wanted:
-            raise InvalidParameter(f"{self.structure} has {wanted} standard errors, found {len(self.errors)}")
+            raise InvalidParameter(
+                said(
+                    "{structure} has {wanted} standard errors, found {n}",
+                    structure=self.structure,
+                    wanted=wanted,
+                    n=len(self.errors),
+                )
+            )
         put(
             self, "errors", tuple(checks.real("standard error", each, 0.0, checks.LARGEST_GAIN) for each in self.errors)
         )
         put(self, "fit", checks.real("fit", self.fit, -checks.LARGEST_GAIN, 1.0))
         put(self, "samples", checks.whole("samples", self.samples, 1, 1_000_000))
         if len(self.gains) not in (0, 2):
-            raise InvalidParameter(f"gains must be two, or none, found {len(self.gains)}")
+            raise InvalidParameter(said("gains must be two, or none, found {n}", n=len(self.gains)))
         bound = checks.LARGEST_GAIN
         put(self, "gains", tuple(checks.real("gain", each, -bound, bound) for each in self.gains))
         put(self, "source", "".join(c for c in self.source if c.isprintable())[:LONGEST_SOURCE])
@@ -122,13 +150,21 @@ def origin_of(text: str, plant: Plant) -> Origin:
     first, *rest = text.split("~")
     structure, *own = first.split("!")
     if structure not in PARAMETERS:
-        raise SimcError(f"origin begins with one of {', '.join(PARAMETERS)}, found {structure[:20]}")
+        raise SimcError(
+            said(
+                "origin begins with one of {parameters}, found {structure}",
+                parameters=", ".join(PARAMETERS),
+                structure=structure[:20],
+            )
+        )
     count = 2 + len(PARAMETERS[structure])
     try:
         fit, samples, *errors = (float(each) for each in rest[:count])
         gains = tuple(float(each) for each in own)
     except ValueError:
-        raise SimcError(f"origin of {structure} has {count} numbers after its name") from None
+        raise SimcError(
+            said("origin of {structure} has {count} numbers after its name", structure=structure, count=count)
+        ) from None
     return Origin(
         plant, structure, tuple(errors), fit, samples if math.isfinite(samples) else -1, "~".join(rest[count:]), gains
     )
@@ -164,11 +200,19 @@ def uncertainty_from(text: str) -> tuple[Uncertainty, ...]:
     for part in text.split("!"):
         structure, *rest = part.split("~")
         if structure not in STRUCTURES:
-            raise SimcError(f"uncertainty begins with one of {', '.join(STRUCTURES)}, found {structure[:20]}")
+            raise SimcError(
+                said(
+                    "uncertainty begins with one of {structures}, found {structure}",
+                    structures=", ".join(STRUCTURES),
+                    structure=structure[:20],
+                )
+            )
         try:
             freedom, *numbers = (float(each) for each in rest)
         except ValueError:
-            raise SimcError(f"uncertainty of {structure} is made of numbers separated by ~") from None
+            raise SimcError(
+                said("uncertainty of {structure} is made of numbers separated by ~", structure=structure)
+            ) from None
         m = 1 + len(STRUCTURES[structure].lags) + len(STRUCTURES[structure].gains)
         found.append(Uncertainty(structure, tuple(numbers[:m]), tuple(numbers[m:]), freedom))
     return tuple(found)
@@ -188,7 +232,7 @@ def bad_of(text: str) -> tuple[tuple[float, float], ...]:
     try:
         pairs = [tuple(float(each) for each in part.split("~")) for part in text.split("!")]
     except ValueError:
-        raise SimcError("bad stretches are pairs of numbers, from~to, separated by !") from None
+        raise SimcError(said("bad stretches are pairs of numbers, from~to, separated by !")) from None
     if not all(len(pair) == 2 for pair in pairs):
-        raise SimcError("bad stretches are pairs of numbers, from~to, separated by !")
+        raise SimcError(said("bad stretches are pairs of numbers, from~to, separated by !"))
     return tuple((pair[0], pair[1]) for pair in pairs)

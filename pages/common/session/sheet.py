@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter
+from simc_core.wording import said
 
 TIME_UNITS = {"s": Fraction(1), "min": Fraction(60), "h": Fraction(3600), "ms": Fraction(1, 1000)}  # in seconds
 LONGEST = {"tag": 40, "note": 500, "PV": 40, "PV_unit": 16, "OP": 40, "OP_unit": 16}  # characters
@@ -45,7 +46,13 @@ class Sheet:
             put(self, name, _text(name, getattr(self, name), longest))
         if self.time_unit and self.time_unit not in TIME_UNITS:
             units = ", ".join(TIME_UNITS)
-            raise InvalidParameter(f"time unit must be one of {units} or empty, found {str(self.time_unit)[:20]}")
+            raise InvalidParameter(
+                said(
+                    "time unit must be one of {units} or empty, found {time_unit}",
+                    units=units,
+                    time_unit=str(self.time_unit)[:20],
+                )
+            )
         for signal in ("PV", "OP"):
             for end in ("low", "high", "now"):
                 name = f"{signal}_{end}"
@@ -54,10 +61,25 @@ class Sheet:
                     put(self, name, number)
             low, high, now = (getattr(self, f"{signal}_{end}") for end in ("low", "high", "now"))
             if low is not None and high is not None and not low < high:
-                raise InvalidParameter(f"{signal}_high must be > {signal}_low = {low:g}, found {high:g}")
+                raise InvalidParameter(
+                    said(
+                        "{signal}_high must be > {signal}_low = {low:g}, found {high:g}",
+                        signal=signal,
+                        low=low,
+                        high=high,
+                    )
+                )
             least, most = (-math.inf if low is None else low), (math.inf if high is None else high)
             if now is not None and not least <= now <= most:
-                raise InvalidParameter(f"{signal}_now must be within {least:g} to {most:g}, found {now:g}")
+                raise InvalidParameter(
+                    said(
+                        "{signal}_now must be within {least:g} to {most:g}, found {now:g}",
+                        signal=signal,
+                        least=least,
+                        most=most,
+                        now=now,
+                    )
+                )
 
     @property
     def per_cent_of_span(self) -> float | None:
@@ -96,12 +118,21 @@ def ratio(old: str, new: str) -> Fraction:
 def _text(name: str, given, longest: int) -> str:
     text = "".join(c if c.isprintable() else " " for c in str(given)).strip()
     if len(text) > longest:
-        raise InvalidParameter(f"{name} may have at most {longest} characters, found {len(text)}")
+        raise InvalidParameter(
+            said("{name} may have at most {longest} characters, found {n}", name=name, longest=longest, n=len(text))
+        )
     return text
 
 
 def one_of(name: str, value, choices: Iterable[str]) -> str:
     """`value`, which must be one of `choices`. Raises InvalidParameter."""
     if value not in choices:
-        raise InvalidParameter(f"{name} must be one of {', '.join(choices)}, found {str(value)[:40]}")
+        raise InvalidParameter(
+            said(
+                "{name} must be one of {choices}, found {value}",
+                name=name,
+                choices=", ".join(choices),
+                value=str(value)[:40],
+            )
+        )
     return value

@@ -7,6 +7,7 @@ from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.rules.simc_family import FAMILY
 from simc_core.rules.speed import WORDS, is_speed, times_theta
+from simc_core.wording import said
 
 KINDS = ("PI", "PID")
 RULES = ("2003", "1998")
@@ -37,8 +38,14 @@ class Tuning:
     def __post_init__(self):
         put = object.__setattr__
         if not is_speed(self.speed):
-            words = ", ".join(WORDS)
-            raise InvalidParameter(f"speed must be one of {words} or like 1.5theta, found {str(self.speed)[:40]}")
+            choices = ", ".join(WORDS)
+            raise InvalidParameter(
+                said(
+                    "speed must be one of {choices} or like 1.5theta, found {speed}",
+                    choices=choices,
+                    speed=str(self.speed)[:40],
+                )
+            )
         put(self, "order", checks.whole("order", self.order, 1, 2))
         put(self, "h", checks.optional_time("h", self.h))
         put(self, "tau_F", checks.optional_time("tau_F", self.tau_F))

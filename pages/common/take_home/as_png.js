@@ -3,6 +3,7 @@ const SCALE = 3;
 
 export default function ({ parentElement, data }) {
   const button = parentElement.querySelector("button");
+  button.textContent = data.label;
   button.onclick = async () => {
     const picture = new Image();
     picture.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(data.svg)}`;
@@ -14,7 +15,7 @@ export default function ({ parentElement, data }) {
     canvas.toBlob((png) => {
       const link = document.createElement("a");
       link.href = URL.createObjectURL(png);
-      link.download = data.name;
+      link.download = data.file;
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
     }, "image/png");

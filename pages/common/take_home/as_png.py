@@ -4,10 +4,12 @@ from pathlib import Path
 
 import streamlit as st
 
+from pages.common.words import words
+
 HERE = Path(__file__).parent
 _component = st.components.v2.component(
     "simc_as_png",
-    html='<button type="button">Figures as PNG</button>',
+    html='<button type="button"></button>',
     css=(HERE / "as_png.css").read_text(encoding="utf-8"),
     js=(HERE / "as_png.js").read_text(encoding="utf-8"),
 )
@@ -25,4 +27,4 @@ def as_png(svg: str, name: str, key: str) -> None:
     key : str
         Of the widget.
     """
-    _component(key=key, data={"svg": svg, "name": name}, width="content")
+    _component(key=key, data={"svg": svg, "file": name, "label": words("Figures as PNG")}, width="content")

@@ -9,11 +9,13 @@ from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.studies.single import Study
 from pages.common.take_home.proof import longest_period
-from pages.common.take_home.typed import assumed, typed_into
-from pages.common.take_home.written import LANGUAGES, limits, written
-from simc_core.notation import number
+from pages.common.take_home.typed import SECONDS, assumed, typed_into
+from pages.common.take_home.written import LANGUAGES, Language, limits, written
+from pages.common.words import translated, words
+from simc_core.notation import number as core_number
+from simc_core.wording import said
 
-WHOSE = {"design": "the design", "typed": "what is typed into the box"}
+WHOSE = {"design": said("the design"), "typed": said("what is typed into the box")}
 
 
 def code(design: Design, present: Study) -> None:
@@ -28,10 +30,15 @@ def code(design: Design, present: Study) -> None:
     text = written(design, controller, present.controller)
     language = LANGUAGES[design.home.language]
     st.download_button(
-        f"Download {language.file}", text, language.file, "text/plain", key="code_file", on_click="ignore"
+        words("Download {file}", file=language.file),
+        text,
+        language.file,
+        "text/plain",
+        key="code_file",
+        on_click="ignore",
     )
     if not language.compiled:
-        st.warning(f"Not compiled: no tool for {language.title} was at hand. Check it in yours before use.")
+        st.warning(not_compiled(language))
     st.caption(_what_it_knows(design))
     st.code(text, language=language.colours, height=560)
 
@@ -39,11 +46,18 @@ def code(design: Design, present: Study) -> None:
 def _choose(design: Design) -> None:
     places = st.columns([3, 4], gap="small", vertical_alignment="bottom")
     places[0].selectbox(
-        "Language", list(LANGUAGES), format_func=lambda key: LANGUAGES[key].title, **state.bound("language")
+        words("Language"),
+        list(LANGUAGES),
+        format_func=lambda key: translated(LANGUAGES[key].title),
+        **state.bound("language"),
     )
     if design.box:
         places[1].segmented_control(
-            "Settings of", list(WHOSE), format_func=WHOSE.get, required=True, **state.bound("exported")
+            words("Settings of"),
+            list(WHOSE),
+            format_func=lambda whose: translated(WHOSE[whose]),
+            required=True,
+            **state.bound("exported"),
         )
 
 
@@ -51,19 +65,28 @@ def _period(design: Design, present: Study) -> None:
     """Without a sampling period there is no code; one that costs little is offered."""
     period = longest_period(present.loop, design.actuator.law, design.actuator.delay_scans)
     if not math.isfinite(period):
-        st.info("A program acts every so often: type the sampling period of yours.")
+        st.info(words("A program acts every so often: type the sampling period of yours."))
         return
+    time = time_text(period, design.sheet)
     st.info(
-        "A program acts every so often: type the sampling period of yours. "
-        f"Up to {time_text(period, design.sheet)}, $M_s$ rises by 5 % at most."
+        words(
+            "A program acts every so often: type the sampling period of yours. Up to {time}, $M_s$ rises by 5 % "
+            "at most.",
+            time=time,
+        )
     )
-    st.button(
-        f"Take {time_text(period, design.sheet)}", key="take_period", on_click=state.change, kwargs={"sampling": period}
-    )
+    st.button(words("Take {time}", time=time), key="take_period", on_click=state.change, kwargs={"sampling": period})
 
 
 def _what_it_knows(design: Design) -> str:
-    low, high = ("none" if value is None else number(value) for value in limits(design))
-    told = f"The law that the simulation uses. Limits of the output: {low} to {high}."
-    taken = [what for what in assumed(design.sheet) if what.startswith("times")]
-    return " ".join([told, *(f"{what[0].upper()}{what[1:]}." for what in taken)])
+    none = said("none", context="limit of the output")
+    low, high = (none if value is None else core_number(value) for value in limits(design))
+    told = words("The law that the simulation uses. Limits of the output: {low} to {high}.", low=low, high=high)
+    return " ".join([told, words("Times are taken as seconds.")]) if SECONDS in assumed(design.sheet) else told
+
+
+def not_compiled(language: Language) -> str:
+    """A warning."""
+    return words(
+        "Not compiled: no tool for {language} was at hand. Check it in yours before use.", language=language.title
+    )

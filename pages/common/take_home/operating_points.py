@@ -15,6 +15,7 @@ from simc_core.controllers.forms import Controller
 from simc_core.errors import InvalidParameter
 from simc_core.plants.models import Model
 from simc_core.rules.speed import tau_c_in_use
+from simc_core.wording import said
 
 
 def points_of(text: str) -> tuple[Point, ...]:
@@ -23,10 +24,11 @@ def points_of(text: str) -> tuple[Point, ...]:
     if lines and not any(c.isdigit() for c in lines[0]):
         lines = lines[1:]
     points = tuple(
-        tuple(read_numbers(f"row {i}", line.replace("\t", " ").strip())) for i, line in enumerate(lines, start=1)
+        tuple(read_numbers(said("row {i}", i=i), line.replace("\t", " ").strip()))
+        for i, line in enumerate(lines, start=1)
     )
     if len(points) == 1:
-        raise InvalidParameter("a schedule has 2 rows at least, found 1")
+        raise InvalidParameter(said("a schedule has 2 rows at least, found 1"))
     return Home(points=points).points
 
 

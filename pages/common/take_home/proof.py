@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from functools import lru_cache
 
-from pages.common.parts.units import with_plain_unit
+from pages.common.parts.units import measured, with_plain_unit
 from pages.common.session.design import Design
 from simc_core import Actuation, Loop, TimeResponse, longest_sampling_period, sampled_margins, simulate
 from simc_core.controllers.forms import Controller
@@ -12,20 +12,23 @@ from simc_core.errors import SimcError
 from simc_core.notation import number, rounded_down
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation.horizon import times
+from simc_core.wording import Text, said
 
+QUANTITY = said("quantity")
+DESIGN, AS_TYPED, SAMPLED = said("design"), said("as typed"), said("sampled")  # columns and curves
 ROWS = {  # of Margins: label; delay_margin in the time unit
     "Ms": "Ms",
     "Mt": "Mt",
-    "GM": "gain margin",
-    "PM_deg": "phase margin [°]",
-    "delay_margin": "delay margin",
+    "GM": said("gain margin"),
+    "PM_deg": said("phase margin [°]"),
+    "delay_margin": said("delay margin"),
 }
 
 
-def sampled(loop: Loop, design: Design) -> tuple[str, Margins]:
+def sampled(loop: Loop, design: Design) -> tuple[Text, Margins]:
     """Title and margins with the sampling period of the design. Raises SimcError where its law does not exist."""
     h = design.actuator.h
-    title = f"sampled every {number(h)} {design.sheet.time_unit}".rstrip()
+    title = said("sampled every {time}", time=measured(h, design.sheet.time_unit))
     return title, sampled_margins(loop, h, design.actuator.law, design.actuator.delay_scans)
 
 
@@ -37,7 +40,7 @@ def sampled_response(first: Loop, loop: Loop, design: Design, built: Actuation |
     return simulate(loop, design.excitation.scenario(disturbance_time=begins, t_end=t_end, actuation=actuation))
 
 
-def responses(first: Loop, loops: Mapping[str, Loop], design: Design) -> tuple[dict[str, TimeResponse], list[str]]:
+def responses(first: Loop, loops: Mapping[str, Loop], design: Design) -> tuple[dict[str, TimeResponse], list[Text]]:
     """y and u of each loop over the horizon of `first`, by name; and why some are not there."""
     begins, t_end = times(first, design.excitation.scenario())
     asked = design.excitation.scenario(disturbance_time=begins, t_end=t_end)
@@ -50,15 +53,16 @@ def responses(first: Loop, loops: Mapping[str, Loop], design: Design) -> tuple[d
     return found, why
 
 
-def not_drawn(name: str, loop: Loop, error: SimcError) -> str:
+def not_drawn(name: str, loop: Loop, error: SimcError) -> Text:
     """Why a response is missing, in words."""
     if kicks(loop.controller):
-        return (
-            f"The response {name} is not drawn: its derivative acts on the set point without a filter, so a set-point "
-            "step makes u infinite. Its margins and its load response are those of a derivative on PV. With the "
-            "sampling period of the box it is drawn as the box does it."
+        return said(
+            "The response {name} is not drawn: its derivative acts on the set point without a filter, so a "
+            "set-point step makes u infinite. Its margins and its load response are those of a derivative on PV. "
+            "With the sampling period of the box it is drawn as the box does it.",
+            name=name,
         )
-    return f"The response {name} is not drawn: {error}"
+    return said("The response {name} is not drawn: {error}", name=name, error=str(error))
 
 
 def kicks(controller: Controller) -> bool:
@@ -78,13 +82,15 @@ def longest_period(loop: Loop, law: str, scans: int) -> float:
 
 
 def table(columns: Mapping[str, Margins], time_unit: str) -> list[dict[str, str]]:
-    """A line for each of ROWS, with what it is under "quantity"."""
+    """A line for each of ROWS, with what it is under QUANTITY; what is to be translated still can."""
     names = [with_plain_unit(label, time_unit * (name == "delay_margin")) for name, label in ROWS.items()]
     texts = {title: _column(judged) for title, judged in columns.items()}
-    return [{"quantity": name} | {title: column[i] for title, column in texts.items()} for i, name in enumerate(names)]
+    return [{QUANTITY: name} | {title: column[i] for title, column in texts.items()} for i, name in enumerate(names)]
 
 
 def _column(judged: Margins) -> list[str]:
     if not judged.stable:
-        return ["not stable"] * len(ROWS)
-    return ["no limit" if math.isinf(value) else number(value) for value in (getattr(judged, name) for name in ROWS)]
+        return [said("not stable")] * len(ROWS)
+    return [
+        said("no limit") if math.isinf(value) else number(value) for value in (getattr(judged, name) for name in ROWS)
+    ]

@@ -9,11 +9,12 @@ from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.studies.single import Study
 from pages.common.take_home.typed import typed_into
+from pages.common.words import number, words
 from simc_core import BOXES, Loop, SeriesPid, margins
 from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import FormError, SimcError
-from simc_core.notation import number
 from simc_core.studies.bands import band_of
+from simc_core.wording import joined
 
 MOST_NAMED = 4  # boxes; the others are in the list
 
@@ -21,11 +22,15 @@ MOST_NAMED = 4  # boxes; the others are in the list
 def way_out(design: Design, present: Study, error: FormError) -> None:
     """Why the box does not take the design, and what can be done."""
     box, controller = BOXES[design.box], present.controller
-    st.error(f"**{box.title} has no numbers for this controller.** {sentence(str(error))}")
+    st.error(words("**{box} has no numbers for this controller.** {error}", box=box.title, error=sentence(str(error))))
     found = takers(controller, design)
     if found:
-        named = "; ".join(BOXES[key].title for key in found[:MOST_NAMED])
-        st.markdown(f"Boxes that take it as it is: {named}{'; and more' * (len(found) > MOST_NAMED)}.")
+        boxes = joined([BOXES[key].title for key in found[:MOST_NAMED]], "; ")
+        st.markdown(
+            words("Boxes that take it as it is: {boxes}; and more.", boxes=boxes)
+            if len(found) > MOST_NAMED
+            else words("Boxes that take it as it is: {boxes}.", boxes=boxes)
+        )
     theta = present.model.theta if present.model else design.plant.theta
     if not isinstance(controller, IController) or not theta:
         return
@@ -35,11 +40,16 @@ def way_out(design: Design, present: Study, error: FormError) -> None:
         if band_of(Ms).tone == "alarm":
             return
         st.markdown(
-            f"Or a PI controller with the same integral gain and $\\tau_I = \\theta/3$, as in improved SIMC "
-            f"{cited('SG12')}: $M_s$ = {number(Ms)} instead of {number(present.margins.Ms)}."
+            words(
+                "Or a PI controller with the same integral gain and $\\tau_I = \\theta/3$, as in improved SIMC "
+                "{source}: $M_s$ = {Ms} instead of {designed}.",
+                source=cited("SG12"),
+                Ms=number(Ms),
+                designed=number(present.margins.Ms),
+            )
         )
         st.button(
-            "Take this PI as my settings",
+            words("Take this PI as my settings"),
             key="take_pi",
             on_click=state.change,
             kwargs={"own": instead.to_ideal(), "controller": "own"},

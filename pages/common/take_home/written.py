@@ -12,6 +12,7 @@ from pages.common.session.sheet import Sheet
 from pages.common.take_home.typed import seconds_of
 from simc_core import export
 from simc_core.controllers.forms import Controller
+from simc_core.wording import said
 
 NOT_IN_COMMENTS = re.compile(r"[^\w .,:+/%°-]")
 
@@ -30,7 +31,7 @@ LANGUAGES: Mapping[str, Language] = MappingProxyType(
         "python": Language("Python", "simc_pid.py", "python"),
         "c": Language("C99", "simc_pid.c", "c"),
         "arduino": Language("Arduino", "simc_pid.ino", "arduino"),
-        "st": Language("IEC 61131-3 Structured Text", "FB_SimcPid.st", "pascal"),
+        "st": Language(said("IEC 61131-3 Structured Text"), "FB_SimcPid.st", "pascal"),
         "scl": Language("Siemens SCL", "FB_SimcPid.scl", "pascal", compiled=False),
         "logix": Language("Rockwell Logix", "simc_pid_routine.txt", "pascal", compiled=False),
         "matlab": Language("MATLAB, Octave", "simc_pid.m", "matlab"),

@@ -3,11 +3,12 @@
 from functools import partial
 
 from simc_core.implementation.boxes.box import D_ON_PV, ON_E, Box, Field
+from simc_core.wording import said
 
 _SCHNEIDER = partial(
     Box,
     maker="Schneider",
-    source="description of PIDFF and PI_B, its formulas are pictures",
+    source=said("description of PIDFF and PI_B, its formulas are pictures"),
     verified="maker",
     filter="ratio",
     N=10.0,
@@ -19,26 +20,26 @@ BOXES = (
     Box(
         "abb_acs880",
         maker="ABB",
-        title="ACS880, ACQ580 process PID",
-        source="firmware manual",
+        title=said("ACS880, ACQ580 process PID"),
+        source=said("firmware manual"),
         verified="maker",
         form="ideal",
         filter="time",
         fields=(
-            Field("gain", "gain", "%/%", 0.01, 100.0),
-            Field("integration time", "Ti", "s", 0.0, 9999.0, off=0.0),
-            Field("derivation time", "Td", "s", 0.0, 10.0),
-            Field("derivation filter time", "Tf", "s", 0.0, 10.0),
+            Field(said("gain"), "gain", "%/%", 0.01, 100.0),
+            Field(said("integration time"), "Ti", "s", 0.0, 9999.0, off=0.0),
+            Field(said("derivation time"), "Td", "s", 0.0, 10.0),
+            Field(said("derivation filter time"), "Tf", "s", 0.0, 10.0),
         ),
         structures=ON_E,
-        unread=("unit of gain, taken as %/%",),
-        notes=("the derivative acts on e every 2 ms: a set-point step kicks",),
+        unread=(said("unit of gain, taken as %/%"),),
+        notes=(said("the derivative acts on e every 2 ms: a set-point step kicks"),),
     ),
     Box(
         "abb_infi90",
         maker="ABB",
         title="Infi 90 FC19, FC156",
-        source="a text on Infi 90",
+        source=said("a text on Infi 90"),
         verified="third party",
         form="parallel",
         fields=(
@@ -48,23 +49,23 @@ BOXES = (
             Field("KD", "Kd", "%/% min"),
         ),
         structures=D_ON_PV,
-        unread=("where the derivative acts",),
-        notes=("K multiplies KP, KI and KD", "FC156 has a lag KA in the derivative, not in this law"),
+        unread=(said("where the derivative acts"),),
+        notes=(said("K multiplies KP, KI and KD"), said("FC156 has a lag KA in the derivative, not in this law")),
     ),
     _SCHNEIDER(
         "schneider_pidff",
-        title="PIDFF, PI_B, mixed",
+        title=said("PIDFF, PI_B, mixed"),
         form="ideal",
         fields=(Field("kp", "gain"), Field("ti", "Ti", "s", off=0.0), Field("td", "Td", "s"), _KD),
-        unread=("lag of the derivative, taken as td/kd", "where the derivative acts"),
-        notes=("kp in units of output and PV; ti = 0 is the absolute form, without integral action",),
+        unread=(said("lag of the derivative, taken as td/kd"), said("where the derivative acts")),
+        notes=(said("kp in units of output and PV; ti = 0 is the absolute form, without integral action"),),
     ),
     _SCHNEIDER(
         "schneider_pidff_parallel",
-        title="PIDFF, parallel",
+        title=said("PIDFF, parallel"),
         form="parallel",
         fields=(Field("kp", "gain"), Field("ti", "1/Ki", "%/% s", off=0.0), Field("td", "Kd", "%/% s"), _KD),
-        unread=("lag of the derivative, taken as td/kd", "where the derivative acts"),
-        notes=("ti and td are for a range of the output over a range of PV, whatever kp is",),
+        unread=(said("lag of the derivative, taken as td/kd"), said("where the derivative acts")),
+        notes=(said("ti and td are for a range of the output over a range of PV, whatever kp is"),),
     ),
 )

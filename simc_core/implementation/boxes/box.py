@@ -19,10 +19,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from simc_core.wording import Text, said
+
 Structures = dict[str, tuple[float, float]]  # name -> b, c; the first is the box's own choice
 
-STRUCTURE = "structure"
-PV_FILTER = "PV filter"
+STRUCTURE = said("structure")
+PV_FILTER = said("PV filter")
+REVERSE, DIRECT = said("reverse", context="action"), said("direct", context="action")
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,9 +88,9 @@ class Box:
         -1: a reverse acting one has.
     actions : (str, str)
         What the box calls reverse acting (the output falls when PV rises) and direct acting.
-    unread : tuple of str
+    unread : tuple of Text
         What was assumed without having been read: check your manual.
-    notes : tuple of str
+    notes : tuple of Text
         What one should know.
     """
 
@@ -102,9 +105,9 @@ class Box:
     N: float | None = None
     structures: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     sign: int = 0
-    actions: tuple[str, str] = ("reverse", "direct")
-    unread: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
+    actions: tuple[str, str] = (REVERSE, DIRECT)
+    unread: tuple[Text, ...] = ()
+    notes: tuple[Text, ...] = ()
 
     @property
     def own_N(self) -> float:
@@ -117,6 +120,6 @@ class Box:
         return next((found for found in self.fields if found.quantity in quantities), None)
 
 
-ON_E: Structures = {"P and D on e": (1.0, 1.0)}
-D_ON_PV: Structures = {"P on e, D on PV": (1.0, 0.0)}
-I_ON_E: Structures = {"I on e, P and D on PV": (0.0, 0.0)}
+ON_E: Structures = {said("P and D on e"): (1.0, 1.0)}
+D_ON_PV: Structures = {said("P on e, D on PV"): (1.0, 0.0)}
+I_ON_E: Structures = {said("I on e, P and D on PV"): (0.0, 0.0)}

@@ -13,6 +13,7 @@ from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.fields import carries_gain, check, numbers, off_value, with_sign, with_structure
 from simc_core.implementation.boxes.laws import LAWS, Quantities
 from simc_core.implementation.boxes.units import Spans, law_quantity, read
+from simc_core.wording import Text, joined, said
 
 SECONDS = {"s": 1, "min": 60}
 REQUIRED = ("gain", "PB", "Ti", "1/Ti", "Ki", "1/Ki")
@@ -32,14 +33,14 @@ class Typed:
         reverse: the output falls when PV rises, as a plant of positive gain needs it.
     effective : Controller
         Read back from the typed numbers, in the time unit of the design.
-    warnings : tuple of str
+    warnings : tuple of Text
         What differs from the design, and what must be looked up.
     """
 
     values: Mapping[str, float | str]
     action: str
     effective: Controller
-    warnings: tuple[str, ...]
+    warnings: tuple[Text, ...]
 
 
 def to_box(
@@ -98,7 +99,11 @@ def to_box(
     sign = math.copysign(1.0, form.Kp or form.Ki)
     positive = design.rescaled(gain=sign)
     if N is not None and box.filter != "ratio":
-        raise BoxError(f"{box.title} has no ratio N of derivative time to filter time to choose, found N = {N}", "N", N)
+        raise BoxError(
+            said("{box} has no ratio N of derivative time to filter time to choose, found N = {N}", box=box.title, N=N),
+            "N",
+            N,
+        )
     N = None if N is None else checks.real("N", N, *RATIOS)
     law, pv_filter, warnings = LAWS[box.form].forward(positive, box, N)
     action = "reverse" if sign > 0 else "direct"
@@ -109,8 +114,11 @@ def to_box(
     if pv_filter:
         values[PV_FILTER] = pv_filter
         warnings.append(
-            f"the filter tau_F = {pv_filter:g} s must be set at the measurement, before the box: the loop is as "
-            "designed, but the set point is not filtered"
+            said(
+                "the filter tau_F = {pv_filter:g} s must be set at the measurement, before the box: the loop is "
+                "as designed, but the set point is not filtered",
+                pv_filter=pv_filter,
+            )
         )
     effective = from_box(key, values, action, pv_span, out_span, time_unit)
     return Typed(values, action, effective, (*warnings, *more, *_of_the_box(box)))
@@ -160,25 +168,44 @@ def from_box(
     """
     box, spans, seconds = _box(key), _spans(pv_span, out_span), _seconds(time_unit)
     if action not in ("reverse", "direct"):
-        raise InvalidParameter(f"action must be reverse or direct, found {action!r}")
+        raise InvalidParameter(said("action must be reverse or direct, found {action!r}", action=action))
     names = {field.name for field in box.fields}
     unknown = [name for name in values if name not in names | {STRUCTURE, PV_FILTER}]
     if unknown:
-        raise BoxError(f"{box.title} has no field {unknown[0]}; it has {', '.join(sorted(names))}", unknown[0])
+        raise BoxError(
+            said(
+                "{box} has no field {field}; it has {fields}",
+                box=box.title,
+                field=unknown[0],
+                fields=", ".join(sorted(names)),
+            ),
+            unknown[0],
+        )
     sign = 1.0 if action == "reverse" else -1.0
     law: Quantities = {}
     for field in box.fields:
         if field.name not in values:
             if field.quantity in REQUIRED:
-                raise BoxError(f"{field.name} of {box.title} must be given", field.name)
+                raise BoxError(said("{field} of {box} must be given", field=field.name, box=box.title), field.name)
             continue
         given = number = checks.real(field.name, values[field.name])
         if box.sign and carries_gain(field) and number:
             number *= box.sign * sign
             if number < 0:
                 raise BoxError(
-                    f"{field.name} of {box.title} must have the sign of a {action} acting controller, "
-                    f"found {values[field.name]}",
+                    said(
+                        "{field} of {box} must have the sign of a reverse acting controller, found {number}",
+                        field=field.name,
+                        box=box.title,
+                        number=values[field.name],
+                    )
+                    if action == "reverse"
+                    else said(
+                        "{field} of {box} must have the sign of a direct acting controller, found {number}",
+                        field=field.name,
+                        box=box.title,
+                        number=values[field.name],
+                    ),
                     field.name,
                     given,
                     -given,
@@ -188,14 +215,27 @@ def from_box(
     structure = values.get(STRUCTURE, next(iter(box.structures), None))
     if box.structures:
         if not isinstance(structure, str) or structure not in box.structures:
-            raise BoxError(f"{STRUCTURE} must be one of {'; '.join(box.structures)}, found {structure!r}", STRUCTURE)
+            raise BoxError(
+                said(
+                    "{field} must be one of {structures}, found {structure!r}",
+                    field=STRUCTURE,
+                    structures=joined(box.structures, "; "),
+                    structure=structure,
+                ),
+                STRUCTURE,
+            )
         law["b"], law["c"] = box.structures[structure]
     pv_filter = checks.optional_time(PV_FILTER, values.get(PV_FILTER, 0.0))
     found = LAWS[box.form].back(law, box)
     if pv_filter and found.tau_F:
         raise BoxError(
-            f"{PV_FILTER} must be 0 beside the filter of {box.title} itself, found {pv_filter:g}: "
-            "a controller has one filter here",
+            said(
+                "{field} must be 0 beside the filter of {box} itself, found {pv_filter:g}: a controller has one "
+                "filter here",
+                field=PV_FILTER,
+                box=box.title,
+                pv_filter=pv_filter,
+            ),
             PV_FILTER,
             pv_filter,
             0.0,
@@ -204,26 +244,34 @@ def from_box(
     return found.rescaled(Fraction(1, seconds), sign)
 
 
-def _of_the_box(box: Box) -> list[str]:
+def _of_the_box(box: Box) -> list[Text]:
     """What one should know of a box whatever is typed."""
-    read_in = [] if box.verified == "maker" else [f"read in a text of a third party ({box.source}): check your manual"]
-    return [*read_in, *(f"not read in any text, check your manual: {what}" for what in box.unread), *box.notes]
+    read_in = (
+        []
+        if box.verified == "maker"
+        else [said("read in a text of a third party ({source}): check your manual", source=box.source)]
+    )
+    return [
+        *read_in,
+        *(said("not read in any text, check your manual: {what}", what=what) for what in box.unread),
+        *box.notes,
+    ]
 
 
 def _box(key: str) -> Box:
     if key not in BOXES:
-        raise InvalidParameter(f"key must be one of BOXES ({', '.join(BOXES)}), found {key!r}")
+        raise InvalidParameter(said("key must be one of BOXES ({keys}), found {key!r}", keys=", ".join(BOXES), key=key))
     return BOXES[key]
 
 
 def _spans(pv_span: float, out_span: float) -> Spans:
     for name, span in (("pv_span", pv_span), ("out_span", out_span)):
         if checks.gain(name, span) < 0:
-            raise InvalidParameter(f"{name} must be > 0, found {span:g}")
+            raise InvalidParameter(said("{name} must be > 0, found {span:g}", name=name, span=span))
     return Spans(float(pv_span), float(out_span))
 
 
 def _seconds(time_unit: str) -> int:
     if time_unit not in SECONDS:
-        raise InvalidParameter(f"time_unit must be s or min, found {time_unit!r}")
+        raise InvalidParameter(said("time_unit must be s or min, found {time_unit!r}", time_unit=time_unit))
     return SECONDS[time_unit]

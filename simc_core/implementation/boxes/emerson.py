@@ -3,12 +3,13 @@
 from functools import partial
 
 from simc_core.implementation.boxes.box import D_ON_PV, Box, Field
+from simc_core.wording import said
 
 _SETTINGS = (Field("GAIN", "gain", "%/%"), Field("RESET", "Ti", "s"), Field("RATE", "Td", "s"))
 _DELTAV = partial(
     Box,
     maker="Emerson",
-    source="DeltaV Books Online; units and forms from a third party",
+    source=said("DeltaV Books Online; units and forms from a third party"),
     verified="maker",
     filter="ratio",
     N=8.0,
@@ -18,18 +19,18 @@ _DELTAV = partial(
         Field("BETA", "b", "", 0.0, 1.0),
         Field("GAMMA", "c", "", 0.0, 1.0),
     ),
-    notes=("beyond the anti-reset-windup limits RESET acts 16 times as fast",),
+    notes=(said("beyond the anti-reset-windup limits RESET acts 16 times as fast"),),
 )
 _FIELDBUS = partial(
     Box,
     maker="Emerson",
-    source="Rosemount fieldbus PID",
+    source=said("Rosemount fieldbus PID"),
     verified="maker",
     filter="fixed",
     N=10.0,
     fields=_SETTINGS,
     structures=D_ON_PV,
-    unread=("where the derivative acts",),
+    unread=(said("where the derivative acts"),),
 )
 
 BOXES = (
@@ -38,8 +39,8 @@ BOXES = (
         "deltav_series",
         title="DeltaV PID, Series",
         form="series",
-        unread=("what BETA and GAMMA do in the series form",),
+        unread=(said("what BETA and GAMMA do in the series form"),),
     ),
-    _FIELDBUS("emerson_fieldbus_standard", title="Fieldbus PID, standard", form="ideal"),
-    _FIELDBUS("emerson_fieldbus_series", title="Fieldbus PID, series", form="series"),
+    _FIELDBUS("emerson_fieldbus_standard", title=said("Fieldbus PID, standard"), form="ideal"),
+    _FIELDBUS("emerson_fieldbus_series", title=said("Fieldbus PID, series"), form="series"),
 )

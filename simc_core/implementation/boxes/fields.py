@@ -8,11 +8,12 @@ from simc_core.errors import BoxError
 from simc_core.implementation.boxes.box import STRUCTURE, Box, Field
 from simc_core.implementation.boxes.laws import SAME_NUMBER, Quantities
 from simc_core.implementation.boxes.units import Spans, law_quantity, on_the_safe_side, read, typed
+from simc_core.wording import Numeral, Text, said
 
 NEVER_ZERO = ("PB", "Ti", "N", "1/N", "factor")  # but where 0 is off
 
 
-def numbers(box: Box, law: Quantities, spans: Spans, round_off: bool, put: list[str] | None) -> dict[str, float]:
+def numbers(box: Box, law: Quantities, spans: Spans, round_off: bool, put: list[Text] | None) -> dict[str, float]:
     """Typed numbers of the fields. The gain first: gains of I and D are for the gain that is typed.
 
     put: warnings about what was put to the nearest number; None where such a number is refused.
@@ -32,7 +33,13 @@ def numbers(box: Box, law: Quantities, spans: Spans, round_off: bool, put: list[
                 if name == "gain" and law[name] and not number:
                     assert field.step is not None  # else nothing was rounded
                     raise BoxError(
-                        f"{field.name} of {box.title} must be >= {field.step:g}, found {exact:g}",
+                        said(
+                            "{field} of {box} must be >= {step:g}, found {exact:g}",
+                            field=field.name,
+                            box=box.title,
+                            step=field.step,
+                            exact=exact,
+                        ),
                         field.name,
                         0.0,
                         field.step,
@@ -42,7 +49,14 @@ def numbers(box: Box, law: Quantities, spans: Spans, round_off: bool, put: list[
             if put is None or math.isnan(error.nearest):
                 raise
             number = error.nearest
-            put.append(f"{field.name} = {exact:g} is beyond the range of the box: {number:g} is the nearest")
+            put.append(
+                said(
+                    "{field} = {exact:g} is beyond the range of the box: {number:g} is the nearest",
+                    field=field.name,
+                    exact=exact,
+                    number=number,
+                )
+            )
         if name == "gain" and law[name]:
             change = read(field, number, spans) / law[name]
             law = law | {gain: law[gain] * change for gain in ("gain", "Ki", "Kd") if gain in law}
@@ -57,7 +71,9 @@ def _nearest_off(field: Field, number: float) -> float:
     return number
 
 
-def with_structure(box: Box, numbers: Mapping[str, float], law: Quantities) -> tuple[dict[str, float | str], list[str]]:
+def with_structure(
+    box: Box, numbers: Mapping[str, float], law: Quantities
+) -> tuple[dict[str, float | str], list[Text]]:
     """Weights as numbers or as the nearest structure; a warning where the set-point response changes."""
     values: dict[str, float | str] = {**numbers}
     b, c = law["b"], law["c"] if law.get("Kd", law.get("Td")) else None
@@ -83,7 +99,11 @@ def with_structure(box: Box, numbers: Mapping[str, float], law: Quantities) -> t
     if box.form == "interacting" or not far:
         return values, []
     return values, [
-        f"the set-point weights are b = {b_box:g}, c = {c_box:g}: the margins stay, the set-point response not"
+        said(
+            "the set-point weights are b = {b:g}, c = {c:g}: the margins stay, the set-point response not",
+            b=b_box,
+            c=c_box,
+        )
     ]
 
 
@@ -97,15 +117,24 @@ def check(box: Box, field: Field, number: float) -> None:
     if abs(number - nearest) <= SAME_NUMBER * abs(nearest) and not zero:
         return
     nearest = field.step or math.nan if zero else nearest
-    bounds = "> 0" if zero and not low else f"from {low:g} to {high:g}"
-    off = "" if field.off is None else f" ({field.off:g} is off)"
-    there = "" if math.isnan(nearest) else f": the nearest is {nearest:g}"
-    raise BoxError(
-        f"{field.name} of {box.title} must be {bounds} {field.unit}".rstrip() + f"{off}, found {number:g}{there}",
-        field.name,
-        number,
-        nearest,
+    why = said(
+        "{field} of {box} must be {bounds}, found {number:g}",
+        field=field.name,
+        box=box.title,
+        bounds=_bounds(field, zero and (not low), low, high),
+        number=number,
     )
+    if not math.isnan(nearest):
+        why = said("{why}: the nearest is {nearest:g}", why=why, nearest=nearest)
+    raise BoxError(why, field.name, number, nearest)
+
+
+def _bounds(field: Field, positive: bool, low: float, high: float) -> str:
+    """What may be typed, with its unit, and what stands for off."""
+    bounds: str = Numeral(f"> 0 {field.unit}".rstrip())
+    if not positive:
+        bounds = said("from {low:g} to {high}", low=low, high=Numeral(f"{high:g} {field.unit}".rstrip()))
+    return bounds if field.off is None else said("{bounds} ({off:g} is off)", bounds=bounds, off=field.off)
 
 
 def off_value(field: Field) -> float:

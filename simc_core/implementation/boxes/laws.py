@@ -18,6 +18,7 @@ from simc_core.implementation.boxes.filters import (
     unfiltered,
     whole_filtered,
 )
+from simc_core.wording import Text, said
 
 SAME_NUMBER = 1e-12  # relative; what differs by less is the same number
 Quantities = dict[str, float]  # of the law, in seconds and in units of output and PV, all gains positive
@@ -27,10 +28,10 @@ Pid = SeriesPid | IdealPid | ParallelPid
 class _IdealOrParallel:
     """Kp + Ki/s + Kd s/(Tf s + 1), by its times or by its gains."""
 
-    def forward(self, design: Controller, box: Box, N: float | None) -> tuple[Quantities, float, list[str]]:
+    def forward(self, design: Controller, box: Box, N: float | None) -> tuple[Quantities, float, list[Text]]:
         """Quantities of the law, time of a PV filter, warnings."""
         whole = design.to_parallel()
-        warnings: list[str] = []
+        warnings: list[Text] = []
         if box.form == "ideal" or (box.filter in ("ratio", "fixed") and whole.Kd):
             design.to_ideal()  # raises FormError
         if box.filter == "none" or not whole.Kd:
@@ -47,7 +48,7 @@ class _IdealOrParallel:
             law["N"] = own.Kd / own.Kp / own.Tf if own.Tf else box.N
         return law, pv_filter, warnings
 
-    def _with_ratio(self, whole: ParallelPid, box: Box, N: float | None, warnings: list[str]) -> DerivativeFiltered:
+    def _with_ratio(self, whole: ParallelPid, box: Box, N: float | None, warnings: list[Text]) -> DerivativeFiltered:
         """The design behind the filter that the box can have, that of the design if there is a choice."""
         if box.filter == "ratio" and N is None and whole.tau_F:
             own = derivative_filtered(whole)
@@ -61,10 +62,25 @@ class _IdealOrParallel:
         tau_F = fixed_ratio_filter(whole, N)
         if tau_F is None:
             needed = 4 * whole.Kd * whole.Ki / whole.Kp**2 - 1
-            raise BoxError(f"N must be >= 4 tau_D/tau_I - 1 = {needed:g} in {box.title}, found {N:g}", "N", N, needed)
+            raise BoxError(
+                said(
+                    "N must be >= 4 tau_D/tau_I - 1 = {needed:g} in {box}, found {N:g}",
+                    needed=needed,
+                    box=box.title,
+                    N=N,
+                ),
+                "N",
+                N,
+                needed,
+            )
         if abs(tau_F - whole.tau_F) > SAME_NUMBER * tau_F:
             warnings.append(
-                f"the filter of the box, N = {N:g}, makes tau_F = {tau_F:g} s, the design has {whole.tau_F:g} s"
+                said(
+                    "the filter of the box, N = {N:g}, makes tau_F = {made:g} s, the design has {tau_F:g} s",
+                    N=N,
+                    made=tau_F,
+                    tau_F=whole.tau_F,
+                )
             )
         own = derivative_filtered(replace(whole, tau_F=tau_F))
         assert own is not None  # tau_F <= tau_I/2, so Kp' >= Kp/2, and Kd' = N Kp' tau_F
@@ -78,7 +94,9 @@ class _IdealOrParallel:
         Tf = law.get("Tf", 0.0)
         if box.filter in ("ratio", "fixed") and Kd:
             if not Kp:
-                raise BoxError(f"{box.title} filters D by a ratio to P, which must not be 0 then, found 0", "", 0.0)
+                raise BoxError(
+                    said("{box} filters D by a ratio to P, which must not be 0 then, found 0", box=box.title), "", 0.0
+                )
             Tf = Kd / Kp / _ratio(law, box)
         own = DerivativeFiltered(factor * Kp, factor * Ki, factor * Kd, Tf, law.get("b", 1.0), law.get("c", 0.0))
         whole = whole_filtered(own)
@@ -88,10 +106,10 @@ class _IdealOrParallel:
 class _Series:
     """Kc (1 + 1/(Ti s)) (Td s + 1)/(Tf s + 1), Tf = Td/N."""
 
-    def forward(self, design: Controller, box: Box, N: float | None) -> tuple[Quantities, float, list[str]]:
+    def forward(self, design: Controller, box: Box, N: float | None) -> tuple[Quantities, float, list[Text]]:
         """Quantities of the law, time of a PV filter, warnings."""
         series = design.to_series()
-        warnings: list[str] = []
+        warnings: list[Text] = []
         tau_D, tau_F, pv_filter = series.tau_D, series.tau_F, 0.0
         if box.filter == "none" or not tau_D:
             ratio, pv_filter = box.N, tau_F
@@ -101,7 +119,12 @@ class _Series:
             made = self.filter_time(series.tau_I, tau_D, chosen)
             if abs(made - tau_F) > SAME_NUMBER * made:
                 warnings.append(
-                    f"the filter of the box, N = {chosen:g}, makes tau_F = {made:g} s, the design has {tau_F:g} s"
+                    said(
+                        "the filter of the box, N = {N:g}, makes tau_F = {made:g} s, the design has {tau_F:g} s",
+                        N=chosen,
+                        made=made,
+                        tau_F=tau_F,
+                    )
                 )
         law = {"gain": series.Kc, "Ti": series.tau_I, "Td": tau_D, "b": series.b, "c": series.c}
         return law | ({"N": ratio} if ratio else {}), pv_filter, warnings

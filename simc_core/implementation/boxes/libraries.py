@@ -3,25 +3,26 @@
 from functools import partial
 
 from simc_core.implementation.boxes.box import D_ON_PV, I_ON_E, ON_E, Box, Field
+from simc_core.wording import said
 
 _SECONDS = (Field("TN", "Ti", "s", 1e-9), Field("TV", "Td", "s"))
-_SIGNED = partial(Box, sign=1, actions=("positive gains", "negative gains"))
+_SIGNED = partial(Box, sign=1, actions=(said("positive gains"), said("negative gains")))
 _MATLAB = partial(
     _SIGNED,
     maker="MathWorks",
-    source="reference of pid, pidstd",
+    source=said("reference of pid, pidstd"),
     verified="maker",
     structures=ON_E,
 )
-_FORWARD = ("as a discrete object ForwardEuler is the default: it needs Tf > h/2",)
-_UNFILTERED = "the law has no filter"
+_FORWARD = (said("as a discrete object ForwardEuler is the default: it needs Tf > h/2"),)
+_UNFILTERED = said("the law has no filter")
 
 BOXES = (
     Box(
         "beckhoff_ctrl_pid",
         maker="Beckhoff",
         title="FB_CTRL_PID, FB_BasicPID",
-        source="Infosys, its formula is a picture",
+        source=said("Infosys, its formula is a picture"),
         verified="maker",
         form="ideal",
         filter="time",
@@ -33,71 +34,71 @@ BOXES = (
         ),
         structures=D_ON_PV | ON_E | I_ON_E,
         sign=1,
-        actions=("positive fKp", "negative fKp"),
-        unread=("how reverse and direct action are set, taken as the sign of fKp",),
-        notes=("P and D go into the feedback path by two switches",),
+        actions=(said("positive {field}", field="fKp"), said("negative {field}", field="fKp")),
+        unread=(said("how reverse and direct action are set, taken as the sign of fKp"),),
+        notes=(said("P and D go into the feedback path by two switches"),),
     ),
     _SIGNED(
         "codesys_pid",
         maker="CODESYS",
         title="Util PID",
-        source="parameters and formula of PD in the Util library",
+        source=said("parameters and formula of PD in the Util library"),
         verified="maker",
         form="ideal",
         fields=(Field("KP", "gain"), *_SECONDS),
         structures=ON_E,
         notes=(
             _UNFILTERED,
-            "Y_MIN = Y_MAX = 0 means no limits",
-            "new parameters act after a reset or in manual only",
-            "it measures its period in whole milliseconds: PID_FIXCYCLE does not",
+            said("Y_MIN = Y_MAX = 0 means no limits"),
+            said("new parameters act after a reset or in manual only"),
+            said("it measures its period in whole milliseconds: PID_FIXCYCLE does not"),
         ),
     ),
     _SIGNED(
         "oscat_ctrl_pid",
         maker="OSCAT",
         title="CTRL_PID, FT_PIDWL",
-        source="OSCAT Basic, source text",
+        source=said("OSCAT Basic, source text"),
         verified="maker",
         form="ideal",
         fields=(Field("KP", "gain"), *_SECONDS),
         structures=ON_E,
-        notes=(_UNFILTERED, "the integral is a trapezoid"),
+        notes=(_UNFILTERED, said("the integral is a trapezoid")),
     ),
     Box(
         "iec_draft_pid",
         maker="OpenPLC",
-        title="PID of the IEC 61131-3 draft",
-        source="source text in OpenPLC",
+        title=said("PID of the IEC 61131-3 draft"),
+        source=said("source text in OpenPLC"),
         verified="maker",
         form="ideal",
         fields=(Field("KP", "gain"), Field("TR", "Ti", "s", 1e-9), Field("TD", "Td", "s")),
         structures=ON_E,
         sign=-1,
-        actions=("negative KP", "positive KP"),
+        actions=(said("negative {field}", field="KP"), said("positive {field}", field="KP")),
         notes=(
-            "its error is PV - SP: a positive KP is direct acting",
-            "no limits and no anti-windup; TR = 0 divides by zero",
-            "the manual output is KP X0",
-            "the derivative is a slope through four samples, (3 (x0 - x3) + x1 - x2)/(10 h)",
+            said("its error is PV - SP: a positive KP is direct acting"),
+            said("no limits and no anti-windup; TR = 0 divides by zero"),
+            said("the manual output is KP X0"),
+            said("the derivative is a slope through four samples, (3 (x0 - x3) + x1 - x2)/(10 h)"),
         ),
     ),
     _SIGNED(
         "simple_pid",
         maker="Python",
         title="simple-pid 2.0",
-        source="source text",
+        source=said("source text"),
         verified="maker",
         form="parallel",
         fields=(Field("Kp", "gain"), Field("Ki", "Ki", "1/s"), Field("Kd", "Kd", "s")),
         structures=D_ON_PV | I_ON_E,
-        notes=(_UNFILTERED, "the integral is clamped to the limits of the output"),
+        notes=(_UNFILTERED, said("the integral is clamped to the limits of the output")),
     ),
     Box(
         "arduino_pid",
         maker="Arduino",
         title="PID_v1",
-        source="source text",
+        source=said("source text"),
         verified="maker",
         form="parallel",
         fields=(Field("Kp", "gain"), Field("Ki", "Ki", "1/s"), Field("Kd", "Kd", "s")),
@@ -105,15 +106,15 @@ BOXES = (
         actions=("DIRECT", "REVERSE"),
         notes=(
             _UNFILTERED,
-            "what it calls DIRECT is reverse acting elsewhere: the output rises when the measurement is too low",
-            "the output is limited to 0-255 unless told otherwise",
+            said("what it calls DIRECT is reverse acting elsewhere: the output rises when the measurement is too low"),
+            said("the output is limited to 0-255 unless told otherwise"),
         ),
     ),
     _SIGNED(
         "discrete_pids",
         maker="Julia",
         title="DiscretePIDs.jl",
-        source="source text",
+        source=said("source text"),
         verified="maker",
         form="ideal",
         filter="ratio",
@@ -125,7 +126,7 @@ BOXES = (
             Field("N", "N", "", 1e-3),
             Field("b", "b", "", 0.0, 2.0),
         ),
-        notes=("the integral is updated after use; tracking time sqrt(Ti Td)",),
+        notes=(said("the integral is updated after use; tracking time sqrt(Ti Td)"),),
     ),
     _MATLAB(
         "matlab_pid",

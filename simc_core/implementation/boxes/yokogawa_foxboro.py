@@ -1,13 +1,14 @@
 """Yokogawa CENTUM and Foxboro I/A."""
 
 from simc_core.implementation.boxes.box import Box, Field
+from simc_core.wording import said
 
 BOXES = (
     Box(
         "yokogawa_centum",
         maker="Yokogawa",
         title="CENTUM PID",
-        source="IM 21B04C01 (fieldbus) and texts on CENTUM",
+        source=said("IM 21B04C01 (fieldbus) and texts on CENTUM"),
         verified="third party",
         form="ideal",
         fields=(
@@ -16,14 +17,14 @@ BOXES = (
             Field("D", "Td", "s", 0.0, 10_000.0),
         ),
         structures={"I-PD (AUT)": (0.0, 0.0), "PI-D (CAS)": (1.0, 0.0)},
-        unread=("the filter of the derivative",),
-        notes=("velocity form: with its output at a limit it acts like a tracking time of one sampling period",),
+        unread=(said("the filter of the derivative"),),
+        notes=(said("velocity form: with its output at a limit it acts like a tracking time of one sampling period"),),
     ),
     Box(
         "foxboro_ia",
         maker="Foxboro",
         title="I/A PID",
-        source="a text on I/A Series",
+        source=said("a text on I/A Series"),
         verified="third party",
         form="interacting",
         filter="ratio",
@@ -34,10 +35,12 @@ BOXES = (
             Field("DERIV", "Td", "min"),
             Field("KD", "N", "", 1e-3),
         ),
-        unread=("units of INT and DERIV", "the range of KD"),
+        unread=(said("units of INT and DERIV"), said("the range of KD")),
         notes=(
-            "the filter of PV is a second-order Butterworth: the controller in effect has one lag of the same delay "
-            "instead, so its margins are approximate",
+            said(
+                "the filter of PV is a second-order Butterworth: the controller in effect has one lag of the same "
+                "delay instead, so its margins are approximate"
+            ),
         ),
     ),
 )

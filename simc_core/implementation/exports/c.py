@@ -15,6 +15,7 @@ from simc_core.implementation.exports.program import (
     written,
 )
 from simc_core.implementation.single_precision import dead_error
+from simc_core.wording import said
 
 NAMES = {name: f"pid->{name}" for name in (*SETTINGS, *STATE)}
 FORM = "{name} = {value};"
@@ -31,9 +32,15 @@ def arduino(program: Program) -> str:
     seconds = program.h * {"s": 1.0, "min": 60.0}[program.unit]
     u_min, u_max = program.values["u_min"], program.values["u_max"]
     if not -1e30 < u_min < u_max < 1e30:
-        raise InvalidParameter("u_min and u_max must be given for an Arduino, which has to scale its output")
+        raise InvalidParameter(said("u_min and u_max must be given for an Arduino, which has to scale its output"))
     if not 1e-4 <= seconds <= LONGEST_PERIOD:
-        raise InvalidParameter(f"h must be from 0.0001 to {LONGEST_PERIOD:g} s for an Arduino, found {seconds:g} s")
+        raise InvalidParameter(
+            said(
+                "h must be from 0.0001 to {longest_period:g} s for an Arduino, found {seconds:g} s",
+                longest_period=LONGEST_PERIOD,
+                seconds=seconds,
+            )
+        )
     dead = dead_error(max(abs(u_min), abs(u_max)), program.pid.Ki, program.h, single=True)
     header = [*program.header, "double has 32 bits on an AVR: with I at its largest an error below"]
     header += [f"{dead:.2g} does not move the integral any more"] if math.isfinite(dead) else ["nothing is integrated"]

@@ -14,6 +14,7 @@ from simc_core.implementation.exports.python import python
 from simc_core.implementation.exports.python_control import python_control
 from simc_core.implementation.exports.structured_text import logix, scl, structured_text
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 LANGUAGES: Mapping[str, Callable[[Program], str]] = MappingProxyType(
     {
@@ -98,7 +99,13 @@ def export(
     4.05
     """
     if language not in LANGUAGES:
-        raise InvalidParameter(f"language must be one of {', '.join(LANGUAGES)}, found {language!r}")
+        raise InvalidParameter(
+            said(
+                "language must be one of {languages}, found {language!r}",
+                languages=", ".join(LANGUAGES),
+                language=language,
+            )
+        )
     return LANGUAGES[language](
         program(controller, h, law, u_min, u_max, tracking_time, plant, unit, date, single, design, about, delay_scans)
     )

@@ -23,6 +23,7 @@ from simc_core.loops.loop import Loop
 from simc_core.notation import number, plain
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
+from simc_core.wording import said
 
 NO_LIMIT = 1e38  # what stands for an infinite limit: within the range of single precision
 INPUTS = ("r", "y", "u_manual", "u_ff")
@@ -142,12 +143,18 @@ def program(
     if tracking_time is not None and tracking_time != math.inf:
         tracking_time = checks.positive_time("tracking_time", tracking_time)
     if unit not in ("s", "min"):
-        raise InvalidParameter(f"unit must be s or min, found {unit!r}")
+        raise InvalidParameter(said("unit must be s or min, found {unit!r}", unit=unit))
     for name, text in (("date", date), ("about", about)):
         if not REMARK.fullmatch(text):
-            raise InvalidParameter(f"{name} may have letters, digits, blanks and . , : + / % ° -, found {text[:40]!r}")
+            raise InvalidParameter(
+                said(
+                    "{name} may have letters, digits, blanks and . , : + / % ° -, found {text!r}",
+                    name=name,
+                    text=text[:40],
+                )
+            )
     if tracking_time is None and not pid.Kp and plant is None:
-        raise InvalidParameter("tracking_time or plant must be given for pure integral action, found neither")
+        raise InvalidParameter(said("tracking_time or plant must be given for pure integral action, found neither"))
     k, integrators = (plant.k, plant.integrators) if plant else (1.0, 0)
     T_t = tracking_time or usual_tracking_time(controller, k, integrators)
     filters = {"backward": (pid.tau_F / (pid.tau_F + h), 0.0)}
@@ -164,7 +171,7 @@ def _limits(u_min: float, u_max: float) -> tuple[float, float]:
     low = -NO_LIMIT if u_min == -math.inf else checks.real("u_min", u_min, -NO_LIMIT, NO_LIMIT)
     high = NO_LIMIT if u_max == math.inf else checks.real("u_max", u_max, -NO_LIMIT, NO_LIMIT)
     if not low < high:
-        raise InvalidParameter(f"u_max must be > u_min = {low:g}, found {high:g}")
+        raise InvalidParameter(said("u_max must be > u_min = {low:g}, found {high:g}", low=low, high=high))
     return low, high
 
 

@@ -7,6 +7,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.implementation.exports.program import Program
 from simc_core.loops.loop import factored_plant
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 
 def python_control(program: Program) -> str:
@@ -57,5 +58,7 @@ def _row(row: list[float]) -> list[float]:
 def required_plant(program: Program, language: str) -> Plant:
     """The plant. Raises InvalidParameter where there is none."""
     if program.plant is None or not math.isfinite(program.plant.k):
-        raise InvalidParameter(f"plant must be given for {language}, which simulates the loop, found None")
+        raise InvalidParameter(
+            said("plant must be given for {language}, which simulates the loop, found None", language=language)
+        )
     return program.plant

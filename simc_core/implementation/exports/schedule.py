@@ -8,6 +8,7 @@ from simc_core.implementation.exports.program import Statement, written
 from simc_core.implementation.exports.structured_text import NOT_COMPILED, comment, literal
 from simc_core.implementation.schedule_table import ScheduleTable
 from simc_core.notation import number
+from simc_core.wording import said
 
 COLUMNS = ("x_at", "band_at", "tau_I_at", "tau_D_at")
 LOCAL = ("part", "band", "tau_I", "tau_D")
@@ -45,9 +46,15 @@ def export_schedule(table: ScheduleTable, language: str, unit: str = "s", single
     0.689655
     """
     if language not in WRITERS:
-        raise InvalidParameter(f"language must be one of {', '.join(WRITERS)} for a schedule, found {language!r}")
+        raise InvalidParameter(
+            said(
+                "language must be one of {languages} for a schedule, found {language!r}",
+                languages=", ".join(WRITERS),
+                language=language,
+            )
+        )
     if unit not in ("s", "min"):
-        raise InvalidParameter(f"unit must be s or min, found {unit!r}")
+        raise InvalidParameter(said("unit must be s or min, found {unit!r}", unit=unit))
     return WRITERS[language](table, _header(table, unit), single)
 
 

@@ -20,7 +20,7 @@ import numpy as np
 
 from simc_core.algebra.recursion import first_order
 from simc_core.algebra.state_space import chain
-from simc_core.controllers.forms import ParallelPid, needs_filter
+from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
@@ -192,8 +192,10 @@ def _measured(loop: Loop, form: ParallelPid) -> Linear:
         outputs = np.array([[*C, 0.0], [*(rate * C), form.Kp - rate], [*np.zeros(n), 1.0]])
         return Linear(wide, np.array([*B, D / form.tau_F]), outputs, np.array([D, rate * D, 0.0]))
     if form.Kd and D:
-        raise InvalidParameter(needs_filter("on a plant whose response starts with a jump"))
+        raise InvalidParameter(
+            said("tau_F must be > 0 for derivative action on a plant whose response starts with a jump, found 0")
+        )
     if form.Kd and form.c:
-        raise InvalidParameter(needs_filter("on a set-point step (c > 0)"))
+        raise InvalidParameter(said("tau_F must be > 0 for derivative action on a set-point step (c > 0), found 0"))
     slope, jump = C @ A, C @ B
     return Linear(A, B, np.array([C, form.Kp * C + form.Kd * slope, C]), np.array([D, form.Kp * D + form.Kd * jump, D]))

@@ -24,7 +24,7 @@ import numpy as np
 from scipy.linalg.lapack import dgesv
 
 from simc_core.certificate.poles import dominant_poles
-from simc_core.controllers.forms import ParallelPid, needs_filter
+from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.loops.well_posed import require_well_posed
@@ -81,7 +81,7 @@ def check(plant: Plant, forms: Sequence[ParallelPid]) -> None:
     """Raises InvalidParameter where `march` does before it begins."""
     for form in forms:
         if form.Kd and form.c and not form.tau_F:
-            raise InvalidParameter(needs_filter("on a set-point step (c > 0)"))
+            raise InvalidParameter(said("tau_F must be > 0 for derivative action on a set-point step (c > 0), found 0"))
         if not plant.theta:
             L = plant.factored * form.factored
             if L.relative_degree == 0:

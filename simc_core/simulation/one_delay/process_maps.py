@@ -21,13 +21,13 @@ import numpy as np
 
 from simc_core.algebra.factors import Factored
 from simc_core.algebra.state_space import Row, sections
-from simc_core.controllers.forms import needs_filter
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import factored_plant
 from simc_core.plants.plant import Plant
 from simc_core.simulation.collocation.elements import COLLOCATION
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
 from simc_core.simulation.collocation.shifted import solved
+from simc_core.wording import said
 
 SIGNALS = 4  # y, p, p', integral of p
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
@@ -57,7 +57,9 @@ class ProcessMaps:
         self.derivative = derivative
         self.n = sum(2 if den[0] else 1 for _, den in chains[0]) + self.filtered
         if derivative and not self.filtered and not _strictly_proper(chains[0]):
-            raise InvalidParameter(needs_filter("on a plant whose response starts with a jump"))
+            raise InvalidParameter(
+                said("tau_F must be > 0 for derivative action on a plant whose response starts with a jump, found 0")
+            )
         self.modes = modes(factored[0], tau_F[0]) * units[0]
         self.relative_degree = factored[0].relative_degree
 

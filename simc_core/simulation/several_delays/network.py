@@ -16,10 +16,11 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from simc_core.algebra.state_space import chain
-from simc_core.controllers.forms import ParallelPid, needs_filter
+from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import NestedLoops
 from simc_core.loops.well_posed import require_well_posed
+from simc_core.wording import said
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,7 +98,12 @@ def integral_states(loops: NestedLoops) -> list[int | None]:
 
 def _on_error(form: ParallelPid) -> ParallelPid:
     if form.Kd and not form.tau_F:
-        raise InvalidParameter(needs_filter("of an inner controller, which differentiates what the outer one puts out"))
+        raise InvalidParameter(
+            said(
+                "tau_F must be > 0 for derivative action of an inner controller, "
+                "which differentiates what the outer one puts out, found 0"
+            )
+        )
     return ParallelPid(form.Kp, form.Ki, form.Kd, form.tau_F, 1.0, 1.0)
 
 
@@ -116,7 +122,7 @@ def _controller(
         if not form.Kd:
             return xi + proportional, used
         if slope is None or form.c:
-            raise InvalidParameter(needs_filter("on a signal that may jump"))
+            raise InvalidParameter(said("tau_F must be > 0 for derivative action on a signal that may jump, found 0"))
         return xi + proportional - form.Kd * slope, used
     kick = form.Kd / form.tau_F * (form.c * r - y)
     filtered = np.zeros(width)

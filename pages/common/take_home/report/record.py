@@ -1,19 +1,29 @@
 """What a report tells of a loop: plant, design, what is typed, margins, responses, what to watch. Pure."""
 
 import math
+import re
 from dataclasses import dataclass, replace
 from datetime import date
 from typing import NamedTuple
 
 from pages.common.parts.settings_text import as_text
-from pages.common.parts.units import time_text
+from pages.common.parts.units import measured
 from pages.common.session.design import Design
 from pages.common.session.sheet import Sheet
 from pages.common.studies.single import Study, attempt, judged_settings
-from pages.common.take_home.proof import longest_period, not_drawn, responses, sampled, sampled_response
-from pages.common.take_home.typed import SPAN, assumed, rows, typed_into
+from pages.common.take_home.proof import (
+    AS_TYPED,
+    DESIGN,
+    longest_period,
+    not_drawn,
+    responses,
+    sampled,
+    sampled_response,
+)
+from pages.common.take_home.typed import SPAN, assumed, name_of, rows, typed_into
 from simc_core import BOXES, Typed
 from simc_core.errors import SimcError
+from simc_core.implementation.boxes.box import DIRECT, REVERSE
 from simc_core.implementation.single_precision import dead_error
 from simc_core.notation import number, plain
 from simc_core.plants.step_facts import SlopeFacts, StepFacts
@@ -22,12 +32,17 @@ from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation import TimeResponse
 from simc_core.studies.advice import advice
 from simc_core.studies.own_settings import advice_on_settings
+from simc_core.wording import Numeral, Text, joined, said
 
+NOW = said("now")  # column and curve
+FORMS = {"series": said("series"), "ideal": said("ideal"), "parallel": said("parallel")}
+WORDS = {word: word for word in (said("action"), said("no integral"), REVERSE, DIRECT)}  # of settings as text
+FIRST_WORD = re.compile(r"[^\W\d_]{3,}(?![\w/])")
 BLIND = 1e-3  # of the range of PV: an error that REAL no longer sees and that is larger is told
 
 
 class Row(NamedTuple):
-    """A number with its name and unit, as text."""
+    """A number with its name and unit, as text, of which what is to be translated still can."""
 
     name: str
     value: str
@@ -74,11 +89,13 @@ def report(design: Design, present: Study, link: str) -> Report:
         try:
             typed = typed_into(design.box, present.controller, sheet, design.home.rounding == "safe")
         except SimcError as error:
-            watch.append(f"{BOXES[design.box].title} does not take this design: {error}.")
+            watch.append(
+                said("{box} does not take this design: {error}.", box=BOXES[design.box].title, error=str(error))
+            )
     final = judged_settings(design.plant, typed.effective) if typed else present
-    margins = {"design": present.margins}
+    margins: dict[str, Margins] = {DESIGN: present.margins}
     if typed:
-        margins["as typed"] = final.margins
+        margins[AS_TYPED] = final.margins
     if design.actuator.h:
         try:
             margins |= dict([sampled(final.loop, design)])
@@ -97,11 +114,11 @@ def report(design: Design, present: Study, link: str) -> Report:
         signals=tuple(_signals(sheet)),
         how=_how(design, present),
         settings=_settings(design, present),
-        box=f"{BOXES[design.box].maker}: {BOXES[design.box].title}" if typed else "",
+        box=name_of(design.box) if typed else "",
         typed=tuple(Row(row["field"], row["value"], row["unit"]) for row in rows(design.box, typed, sheet))
         if typed
         else (),
-        margins=({"now": before.margins} if before else {}) | margins,
+        margins=({NOW: before.margins} if before else {}) | margins,
         curves=curves,
         asked=_asked(design),
         watch=(*watch, *why, *_watch(design, present, typed)),
@@ -121,23 +138,22 @@ def _responses(
     found: dict[str, TimeResponse] = {}
     why: list[str] = []
     if final is not present or not built.linear:
-        name = "as built" if not built.linear else "as typed"
+        name = said("as built") if not built.linear else AS_TYPED
         try:
             found[name] = sampled_response(present.loop, final.loop, design, built)
         except SimcError as error:
             why.append(not_drawn(name, final.loop, error))
-    loops = {"design": present.loop} | ({"now": before.loop} if before else {})
+    loops = {DESIGN: present.loop} | ({NOW: before.loop} if before else {})
     others, why_not = responses(present.loop, loops, design)
     return found | others, why + why_not
 
 
 def _how(design: Design, present: Study) -> str:
     if present.tuned is None:
-        return "my settings"
-    unit = design.sheet.time_unit
-    return (
-        f"SIMC {design.tuning.kind}, tau_c = {number(present.tau_c)} {unit}".rstrip()
-        + f", model {plain(present.model)}"
+        return said("my settings")
+    tau_c = measured(present.tau_c, design.sheet.time_unit)
+    return said(
+        "SIMC {kind}, tau_c = {tau_c}, model {model}", kind=design.tuning.kind, tau_c=tau_c, model=plain(present.model)
     )
 
 
@@ -148,23 +164,27 @@ def _settings(design: Design, present: Study) -> tuple[Row, ...]:
     found = []
     for name, _, rest in lines:
         value, _, unit = rest.partition(" ") if rest[0].isdigit() else (rest, "", "")
-        found.append(Row(name, value, unit))
-    return (Row("form", form, ""), *found)
+        found.append(Row(WORDS.get(name, name), WORDS.get(value) or Numeral(value), unit))
+    return (Row(said("form"), FORMS[form], ""), *found)
 
 
 def _came_from(facts: StepFacts | None, sheet: Sheet) -> str:
     match facts:
         case None:
-            return "typed as a transfer function"
+            return said("typed as a transfer function")
         case SlopeFacts():
-            told = {"slope over": facts.duration}
+            last = said("slope over {time}", time=measured(facts.duration, sheet.time_unit))
+        case StepFacts(from_movement=True):
+            last = said("63 % from the movement after {time}", time=measured(facts.t63, sheet.time_unit))
         case _:
-            told = {"63 % from the movement after" if facts.from_movement else "63 % after": facts.t63}
-    unit, pv, op = sheet.time_unit, sheet.PV_unit, sheet.OP_unit
-    parts = [f"OP by {number(facts.dOP)} {op}".rstrip(), f"PV by {number(facts.dPV)} {pv}".rstrip()]
-    parts += [f"dead time {number(facts.theta)} {unit}".rstrip()]
-    parts += [f"{what} {number(time)} {unit}".rstrip() for what, time in told.items()]
-    return f"step test: {', '.join(parts)}"
+            last = said("63 % after {time}", time=measured(facts.t63, sheet.time_unit))
+    parts = [
+        said("OP by {change}", change=measured(facts.dOP, sheet.OP_unit)),
+        said("PV by {change}", change=measured(facts.dPV, sheet.PV_unit)),
+        said("dead time {time}", time=measured(facts.theta, sheet.time_unit)),
+        last,
+    ]
+    return said("step test: {facts}", facts=joined(parts))
 
 
 def _signals(sheet: Sheet) -> list[Row]:
@@ -176,52 +196,101 @@ def _signals(sheet: Sheet) -> list[Row]:
         if name:
             found.append(Row(signal, name, unit))
         if low is not None and high is not None:
-            found.append(Row(f"range of {signal}", f"{number(low)} to {number(high)}", unit))
+            found.append(
+                Row(
+                    said("range of {signal}", signal=signal),
+                    said("{low} to {high}", low=number(low), high=number(high)),
+                    unit,
+                )
+            )
         if now is not None:
-            found.append(Row(f"{signal} now", number(now), unit))
+            found.append(Row(said("{signal} now", signal=signal), number(now), unit))
     return found
 
 
 def _asked(design: Design) -> str:
     asked, sheet = design.excitation, design.sheet
-    said = [f"set point {number(asked.reached)} {sheet.PV_unit}".rstrip()]
-    said += [f"then load {number(asked.disturbance)} {sheet.OP_unit}".rstrip()]
-    ends = (("from", design.actuator.u_min), ("to", design.actuator.u_max))
-    limits = [f"{word} {number(sheet.on_scale(u))}" for word, u in ends if u is not None]
-    return ", ".join([*said, *([" ".join([sheet.u_name, *limits, sheet.OP_unit]).rstrip()] if limits else [])])
+    told = [
+        said("set point {size}", size=measured(asked.reached, sheet.PV_unit)),
+        said("then load {size}", size=measured(asked.disturbance, sheet.OP_unit)),
+    ]
+    match design.actuator.u_min, design.actuator.u_max:
+        case None, None:
+            pass
+        case low, None:
+            told.append(said("{u} from {low}", u=sheet.u_name, low=measured(sheet.on_scale(low), sheet.OP_unit)))
+        case None, high:
+            told.append(said("{u} to {high}", u=sheet.u_name, high=measured(sheet.on_scale(high), sheet.OP_unit)))
+        case low, high:
+            told.append(
+                said(
+                    "{u} from {low} to {high}",
+                    u=sheet.u_name,
+                    low=number(sheet.on_scale(low)),
+                    high=measured(sheet.on_scale(high), sheet.OP_unit),
+                )
+            )
+    return joined(told)
 
 
-def _on_sampling(final: Study, design: Design) -> list[str]:
+def _on_sampling(final: Study, design: Design) -> list[Text]:
     """Where h is too long, and what an integral in 32 bits does not see."""
     found, h = [], design.actuator.h
     longest, sheet = longest_period(final.loop, design.actuator.law, design.actuator.delay_scans), design.sheet
     if h > longest:
-        period = time_text(longest, sheet)
-        found.append(f"Sampling is slow for this loop: with {period} or less Ms rises by 5 % at most.")
+        period = measured(longest, sheet.time_unit)
+        found.append(
+            said("Sampling is slow for this loop: with {period} or less Ms rises by 5 % at most.", period=period)
+        )
     spans = [(sheet.PV_low, sheet.PV_high), (sheet.OP_low, sheet.OP_high)]
     PV, OP = ((0.0, SPAN) if None in ends else ends for ends in spans)
     blind = dead_error(max(map(abs, OP)), final.controller.to_parallel().Ki, h)
     if BLIND * (PV[1] - PV[0]) < blind < math.inf:
         found.append(
-            f"Where the box integrates in REAL (32 bits), an error below {number(blind, 2)} {sheet.PV_unit}".rstrip()
-            + " does not move its integral: take LREAL or a slower task."
+            said(
+                "Where the box integrates in REAL (32 bits), an error below {size} does not move its integral: "
+                "take LREAL or a slower task.",
+                size=measured(blind, sheet.PV_unit, 2),
+            )
         )
     return found
 
 
 def _watch(design: Design, present: Study, typed: Typed | None) -> list[str]:
     advised = advice(present.tuned) if present.tuned else advice_on_settings(present.loop, present.margins)
-    found = [f"{item.headline}. {item.text} {item.remedy}".rstrip() for item in advised if item.level != "note"]
+    found: list[str] = [
+        joined(filter(None, (joined((item.headline, "."), ""), item.text, item.remedy)), " ")
+        for item in advised
+        if item.level != "note"
+    ]
     if typed:
         found += typed.warnings
-        found += [f"The loop sheet does not tell it: {what}." for what in assumed(design.sheet)]
-    return [text[0].upper() + text[1:] if text[:3].islower() else text for text in found]
+        found += [said("The loop sheet does not tell it: {assumed}.", assumed=what) for what in assumed(design.sheet)]
+    return found
 
 
 def _sources(design: Design) -> list[str]:
-    found = [f"[SK03] {SOURCES['SK03']}"] if design.source == "simc" else []
+    found = [joined(("[SK03]", SOURCES["SK03"]), " ")] if design.source == "simc" else []
     if design.box:
         box = BOXES[design.box]
-        whose = "its maker" if box.verified == "maker" else "a third party"
-        found.append(f"Law of the box as read in: {box.source}, a text of {whose}.")
+        found.append(
+            said("Law of the box as read in: {source}, a text of its maker.", source=box.source)
+            if box.verified == "maker"
+            else said("Law of the box as read in: {source}, a text of a third party.", source=box.source)
+        )
     return found
+
+
+def beginning(text: str) -> str:
+    """With a capital at its beginning, unless that is a symbol."""
+    return text[0].upper() + text[1:] if FIRST_WORD.match(text) else text
+
+
+def plant_rows(report: Report) -> list[Row]:
+    """What is told of the plant."""
+    rows = [
+        Row(said("plant"), report.plant, ""),
+        Row(said("kind"), report.kind, ""),
+        Row(said("from"), report.came_from, ""),
+    ]
+    return [*rows, Row(said("note"), report.note, "")] if report.note else rows

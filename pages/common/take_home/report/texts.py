@@ -1,29 +1,27 @@
-"""A report as Markdown and as CSV, and its curves as CSV. Pure: no streamlit."""
+"""A report as Markdown and as CSV, and its curves as CSV: for programs, so in English. Pure: no streamlit."""
 
 import csv
 from collections.abc import Iterable
 from io import StringIO
 
 from pages.common.parts.foreign_text import exact, printable
-from pages.common.take_home.proof import table
-from pages.common.take_home.report.record import Report, Row
+from pages.common.take_home.proof import QUANTITY, table
+from pages.common.take_home.report.record import Report, Row, beginning, plant_rows
 
 FORMULA = ("=", "+", "-", "@")  # with one of these a spreadsheet would begin to compute
 
 
 def markdown(report: Report) -> str:
     """The report as Markdown, without its figures; what was typed by people stands in code spans."""
-    facts = [Row("plant", report.plant, ""), Row("kind", report.kind, ""), Row("from", report.came_from, "")]
-    facts += [Row("note", report.note, "")] if report.note else []
     name = f"{exact(report.tag)}: controller settings" if report.tag else "Controller settings"
-    lines = [f"# {name}", "", report.made, "", *_rows("Plant", [*facts, *report.signals])]
+    lines = [f"# {name}", "", report.made, "", *_rows("Plant", [*plant_rows(report), *report.signals])]
     lines += _rows("Design", [Row("controller", report.how, ""), *report.settings])
     lines += _rows(f"Typed into {report.box}", report.typed) if report.typed else []
     margins = table(report.margins, report.time)
     lines += ["## Margins", "", _line(margins[0]), _line(["---"] * len(margins[0]))]
     lines += [*(_line(map(_cell, row.values())) for row in margins), ""]
     for name, texts in (("What to watch", report.watch), ("Sources", report.sources)):
-        lines += [f"## {name}", "", *(f"- {exact(text)}" for text in texts), ""] if texts else []
+        lines += [f"## {name}", "", *(f"- {exact(beginning(text))}" for text in texts), ""] if texts else []
     return "\n".join([*lines, "## This design", "", f"<{report.link}>", ""])
 
 
@@ -34,9 +32,9 @@ def settings_csv(report: Report) -> str:
     for section, found in (("signals", report.signals), ("design", report.settings), ("typed", report.typed)):
         rows += [(section, *row) for row in found]
     for row in table(report.margins, report.time):
-        name = row.pop("quantity")
+        name = row.pop(QUANTITY)
         rows += [("margins", f"{name}, {column}", text, "") for column, text in row.items()]
-    rows += [("watch", "", text, "") for text in report.watch]
+    rows += [("watch", "", beginning(text), "") for text in report.watch]
     return _csv(("section", "name", "value", "unit"), [*rows, ("link", "", report.link, "")])
 
 
