@@ -12,9 +12,11 @@ from pages.common.cascade.readout import readout, sentence
 from pages.common.cascade.settings import settings
 from pages.common.cascade.windup import windup_view
 from pages.common.parts.refusals import explain_refusal
-from pages.common.session import state
+from pages.common.parts.tabs import open_tab, tabs
 from pages.common.shell import header
 from pages.common.studies.cascade import CascadeStudy, attempt
+from pages.common.words import words
+from simc_core.wording import said
 
 
 def instrument(present: CascadeStudy) -> None:
@@ -31,11 +33,17 @@ def figures(present: CascadeStudy) -> None:
     panels(present)
 
 
-VIEWS = {"Live": instrument, "Figures": figures, "Bode": frequencies, "Settings": settings, "Windup": windup_view}
-PAIRS = "Published pairs"
+VIEWS = {
+    said("Live"): instrument,
+    said("Figures"): figures,
+    said("Bode"): frequencies,
+    said("Settings"): settings,
+    said("Windup"): windup_view,
+}
+NAMES = (*VIEWS, said("Published pairs"))
 
 design = header.show("cascade")
-with st.spinner("Tuning both loops"):
+with st.spinner(words("Tuning both loops")):
     present, refusal = attempt(design.cascade)
 picture = st.container()
 with st.container(key="cascade"):
@@ -43,7 +51,7 @@ with st.container(key="cascade"):
 with controls, st.container(key="decided"):
     cascade_widgets.blocks()
     cascade_widgets.method()
-    cascade_widgets.loops(present, slider=state.widget("cascade_views", "Live") != "Live")
+    cascade_widgets.loops(present, slider=open_tab(NAMES, "cascade_views") != "Live")
     form = cascade_widgets.form(present)
     if present is not None:
         cascade_guards.show(present)
@@ -55,8 +63,8 @@ with view:
         with explain_refusal():
             raise refusal
         cascade_guards.offer_synthesis(refusal)
-    *tabs, pairs = st.tabs((*VIEWS, PAIRS), key="cascade_views", on_change="rerun")  # only the open one is made
-    for tab, show in zip(tabs, VIEWS.values(), strict=True):
+    *views, pairs = tabs(NAMES, "cascade_views")  # only the open one is made
+    for tab, show in zip(views, VIEWS.values(), strict=True):
         if tab.open and present is not None:
             with tab, cascade_guards.viewed():
                 show(present)

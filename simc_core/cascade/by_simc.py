@@ -19,6 +19,7 @@ from simc_core.plants.plant import Plant
 from simc_core.reduction.half_rule import reduced_model
 from simc_core.rules.direct_synthesis import KINDS, direct_synthesis
 from simc_core.rules.simc import default_tau_c, simc
+from simc_core.wording import counted, said
 
 SEPARATE = 5.0
 FILTER = 20.0  # tau_c/tau_F of the PID controllers of simc_cascade
@@ -72,8 +73,14 @@ def simc_cascade(
     for name, block in (("primary", primary), ("secondary", secondary)):
         if block.unstable_poles:
             raise InvalidParameter(
-                f"{name} must be stable or integrating for a SIMC cascade, found {block.unstable_poles} unstable "
-                "poles: use direct synthesis, which is made for them"
+                counted(
+                    "{name} must be stable or integrating for a SIMC cascade, found {n} unstable pole: use direct "
+                    "synthesis, which is made for them",
+                    "{name} must be stable or integrating for a SIMC cascade, found {n} unstable poles: use direct "
+                    "synthesis, which is made for them",
+                    block.unstable_poles,
+                    name=name,
+                )
             )
     model = reduced_model(secondary, _order("inner", inner))
     Cb, tau_cb = _tuned(model, tau_c_inner, "inner", Ms_inner, lambda C: NestedLoops((secondary,), (C,)))
@@ -84,8 +91,13 @@ def simc_cascade(
     notes = []
     if tau_ca < SEPARATE * tau_cb:
         notes.append(
-            f"tau_c_outer is {tau_ca / tau_cb:.3g} times tau_c_inner, {SEPARATE:g} times is usual for the loops to "
-            f"separate: take tau_c_outer = {number(rounded_up(SEPARATE * tau_cb, DIGITS))}"
+            said(
+                "tau_c_outer is {ratio:.3g} times tau_c_inner, {usual:g} times is usual for the loops to separate: "
+                "take tau_c_outer = {speed}",
+                ratio=tau_ca / tau_cb,
+                usual=SEPARATE,
+                speed=number(rounded_up(SEPARATE * tau_cb, DIGITS)),
+            )
         )
     loop = CascadeLoop(primary, secondary, Ca, Cb)
     return CascadeDesign(loop, Cb, Ca, tau_cb, tau_ca, models=(model, reduced), notes=(*notes, *on_inner_loop(loop)))
@@ -119,7 +131,7 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
 
 def _order(name: str, kind: str) -> int:
     if kind not in KINDS:
-        raise InvalidParameter(f"{name} must be PI or PID, found {str(kind)[:20]}")
+        raise InvalidParameter(said("{name} must be PI or PID, found {found}", name=name, found=str(kind)[:20]))
     return KINDS.index(kind) + 1
 
 
@@ -128,7 +140,15 @@ def _tuned(
 ) -> tuple[Controller, float]:
     """SIMC controller of one loop, and its tau_c."""
     if tau_c is not None and Ms is not None:
-        raise InvalidParameter(f"only one of tau_c_{loop} and Ms_{loop} may be given, found {tau_c:g} and {Ms:g}")
+        raise InvalidParameter(
+            said(
+                "only one of {speed} and {peak} may be given, found {tau_c:g} and {Ms:g}",
+                speed=f"tau_c_{loop}",
+                peak=f"Ms_{loop}",
+                tau_c=tau_c,
+                Ms=Ms,
+            )
+        )
     scale = default_tau_c(model)
     if Ms is None and tau_c is None:
         tau_c = scale

@@ -9,6 +9,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.plants.plant import Plant
 from simc_core.rules.direct_synthesis import direct_synthesis, numerator
+from simc_core.wording import joined, said
 
 DOMINANT = 1.0  # dead time above this times the slowest time constant: direct synthesis is not meant for it
 
@@ -124,9 +125,27 @@ def _synthesised(
     return CascadeDesign(loop, Cb, Ca, lambda_inner=lambda_b, lambda_outer=lambda_a)
 
 
+WRONG_SIGN = {
+    "inner": said(
+        "Kd of the inner controller should have the sign of Ki = {Ki:.4g}, found {Kd:.4g} with tau_F = {tau_F:.4g}: "
+        "take {cures}",
+        Ki=0.0,
+        Kd=0.0,
+        tau_F=0.0,
+        cures="",
+    ),
+    "outer": said(
+        "Kd of the outer controller should have the sign of Ki = {Ki:.4g}, found {Kd:.4g} with tau_F = {tau_F:.4g}: "
+        "take {cures}",
+        Ki=0.0,
+        Kd=0.0,
+        tau_F=0.0,
+        cures="",
+    ),
+}
 FILTERS = {
     "inner": (("N_inner = 1", {"N_inner": 1.0}),),
-    "outer": (("N_outer = 1", {"N_outer": 1.0}), ("the filter that cancels the inner zero", {"N_outer": None})),
+    "outer": (("N_outer = 1", {"N_outer": 1.0}), (said("the filter that cancels the inner zero"), {"N_outer": None})),
 }
 
 
@@ -136,18 +155,16 @@ def _on_filter(loop: str, design: CascadeDesign, primary: Plant, secondary: Plan
     if _signs_agree(controller):
         return []
     cures = []
-    for words, change in FILTERS[loop]:
+    for cure, change in FILTERS[loop]:
         try:
             changed = _synthesised(primary, secondary, **asked | change)
         except InvalidParameter:
             continue
         if _signs_agree(getattr(changed, loop)):
-            cures.append(words)
-    cures.append(f"a PI {'inside' if loop == 'inner' else 'outside'}")
-    return [
-        f"Kd of the {loop} controller should have the sign of Ki = {controller.Ki:.4g}, found {controller.Kd:.4g} "
-        f"with tau_F = {controller.tau_F:.4g}: take {', or '.join(cures)}"
-    ]
+            cures.append(cure)
+    cures.append(said("a PI inside") if loop == "inner" else said("a PI outside"))
+    found = {"Ki": controller.Ki, "Kd": controller.Kd, "tau_F": controller.tau_F, "cures": joined(cures, said(", or "))}
+    return [WRONG_SIGN[loop].put(**found)]
 
 
 def _signs_agree(controller: ParallelPid) -> bool:
@@ -158,6 +175,11 @@ def _on_dead_time(name: str, block: Plant, theta: float) -> list[str]:
     if block.integrators or theta <= DOMINANT * block.slowest:
         return []
     return [
-        f"theta = {theta:.4g} in the loop of the {name} block should be <= {block.slowest:.4g}, its slowest time "
-        "constant: direct synthesis is not meant for dominating dead time, compare with SIMC"
+        said(
+            "theta = {theta:.4g} in the loop of the {block} block should be <= {slowest:.4g}, its slowest time "
+            "constant: direct synthesis is not meant for dominating dead time, compare with SIMC",
+            theta=theta,
+            block=name,
+            slowest=block.slowest,
+        )
     ]

@@ -3,6 +3,7 @@
 Where Ms is given, the smallest tau_c (or lambda) is taken at which the loop is stable and has it.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from simc_core.controllers.forms import Controller
 from simc_core.loops.nested import CascadeLoop, NestedLoops
 from simc_core.optimal.speed_for_peak import smallest_speed_with_peak
 from simc_core.plants.models import Model
+from simc_core.wording import counted, said
 
 LOWEST_MS, HIGHEST_MS = 1.05, 10.0
 
@@ -69,8 +71,30 @@ def on_inner_loop(loop: CascadeLoop) -> list[str]:
     found = stability(inside)
     if found.verdict == "stable":
         return []
+    if found.verdict == "marginal":
+        return [
+            counted(
+                "the inner loop is marginal on its own, with {n} unstable pole: its margins mean nothing, and it runs "
+                "away when the outer loop saturates or is in manual; give the inner loop a larger tau_c or lambda",
+                "the inner loop is marginal on its own, with {n} unstable poles: its margins mean nothing, and it runs "
+                "away when the outer loop saturates or is in manual; give the inner loop a larger tau_c or lambda",
+                int(found.unstable_poles),
+            )
+        ]
+    if math.isinf(found.unstable_poles):
+        return [
+            said(
+                "the inner loop is unstable on its own, with infinitely many unstable poles: its margins mean nothing, "
+                "and it runs away when the outer loop saturates or is in manual; give the inner loop a larger tau_c or "
+                "lambda"
+            )
+        ]
     return [
-        f"the inner loop is {found.verdict} on its own, with {found.unstable_poles} unstable poles: its margins mean "
-        "nothing, and it runs away when the outer loop saturates or is in manual; give the inner loop a larger "
-        "tau_c or lambda"
+        counted(
+            "the inner loop is unstable on its own, with {n} unstable pole: its margins mean nothing, and it runs "
+            "away when the outer loop saturates or is in manual; give the inner loop a larger tau_c or lambda",
+            "the inner loop is unstable on its own, with {n} unstable poles: its margins mean nothing, and it runs "
+            "away when the outer loop saturates or is in manual; give the inner loop a larger tau_c or lambda",
+            int(found.unstable_poles),
+        )
     ]

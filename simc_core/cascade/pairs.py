@@ -15,8 +15,12 @@ from simc_core.metrics.performance import performance
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.wording import said
 
-ROUNDED = "The authors round lambda; the exact Ms moves the settings by up to 1.2 %."
+ROUNDED = said("The authors round lambda; the exact Ms moves the settings by up to 1.2 %.")
+AT_ITS_LIMIT = said("The dead times outside exceed its lags: direct synthesis is at its limit.")
+CANCELLED = said("The outer filter cancels the inner zero: N = 20 gives kd < 0.")
+NOT_BELOW = said("No stable outer loop has Ms below 3.1: theta is 0.4 of the lag.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,42 +88,42 @@ ROWS = (
         *("1 SIMC", 1, "simc"),
         outer="PI",
         published=Published((0.3929, 0.0714, 0), (2.5, 0.5, 3.0), 1.0, 1.777, None, 1.632, 14.00, 4.11),
-        note="tau_c = theta in both loops.",
+        note=said("tau_c = theta in both loops."),
     ),
-    PairRow("2", 2, "synthesis", note="The dead times outside exceed its lags: direct synthesis is at its limit."),
+    PairRow("2", 2, "synthesis", note=AT_ITS_LIMIT),
     PairRow(
         *("3", 3, "synthesis"),
         N_outer=1.0,
         published=Published((0.5594, 0.0742, 0.6919), (4.1129, 1.8308, 2.4420), 0.41, 2.0, 1.43, 2.0, 13.49, 2.06),
-        note="N = 1 outside: with N = 20 kd would be negative.",
+        note=said("N = 1 outside: with N = 20 kd would be negative."),
     ),
     PairRow(
         *("3 SIMC", 3, "simc"),
         outer="PI",
         published=Published((0.5, 0.0625, 0), (3.0, 1.0, 2.0), 1.0, 2.102, None, None, 16.0, 3.24),
-        note="tau_c = theta in both loops.",
+        note=said("tau_c = theta in both loops."),
     ),
-    PairRow("4", 4, "synthesis", N_outer=None, note="The outer filter cancels the inner zero: N = 20 gives kd < 0."),
-    PairRow("5", 5, "synthesis", Ms_outer=3.5, note="No stable outer loop has Ms below 3.1: theta is 0.4 of the lag."),
+    PairRow("4", 4, "synthesis", N_outer=None, note=CANCELLED),
+    PairRow("5", 5, "synthesis", Ms_outer=3.5, note=NOT_BELOW),
     PairRow(
         *("6a", 6, "synthesis"),
         outer="PI",
         published=Published((1.3709, 0.1479, 0), (15.614, 3.2769, 5.8002), 0.0, 2.0, 1.19, 2.0, 6.93, 0.27),
         note=ROUNDED,
     ),
-    PairRow("7", 7, "synthesis", N_outer=None, note="The outer filter cancels the inner zero: N = 20 gives kd < 0."),
+    PairRow("7", 7, "synthesis", N_outer=None, note=CANCELLED),
     PairRow(
         *("8a", 8, "synthesis"),
         Ms_inner=5.0,
         Ms_outer=3.0,
         N_outer=None,
         published=Published((2.6181, 0.0551, 7.9475), (0.3428, 0.0665, 0.2912), 0.22, 3.0, 2.64, 5.0, 18.15, 21.1),
-        note="The outer filter cancels the inner zero. Mpb is printed as 4.10; the printed settings give 4.065.",
+        note=said("The outer filter cancels the inner zero. Mpb is printed as 4.10; the printed settings give 4.065."),
     ),
     PairRow(
         *("9", 9, "synthesis"),
         Ms_outer=3.0,
-        note="The paper prints k_db = 64.020, with which the loop is unstable; 2.0640 fits its Msb.",
+        note=said("The paper prints k_db = 64.020, with which the loop is unstable; 2.0640 fits its Msb."),
     ),
     PairRow(
         *("10a", 10, "synthesis"),

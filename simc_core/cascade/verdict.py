@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from simc_core.metrics.nested_performance import NestedPerformance
 from simc_core.notation import number
 from simc_core.reduction.records import LARGEST_MS
+from simc_core.wording import Text, joined, said
 
 WORSE = 1.1  # an IAE that is larger by no more than 10 % counts as equal
 STEPS = ("r", "d1", "d2")
@@ -30,7 +31,7 @@ class CascadeVerdict:
         """What is worse than with a single loop."""
         rows = zip(STEPS, self.IAE, self.IAE_single, strict=True)
         found = [f"IAE {step}" for step, ours, single in rows if ours > WORSE * single]
-        peaks = (("outer Ms", self.Ms_outer), ("inner Ms", self.Ms_inner))
+        peaks = ((said("outer Ms"), self.Ms_outer), (said("inner Ms"), self.Ms_inner))
         found += [name for name, Ms in peaks if Ms > max(LARGEST_MS * (1 + 1e-6), self.Ms_single)]
         return tuple(found)
 
@@ -40,18 +41,33 @@ class CascadeVerdict:
         return self.IAE[2] < self.IAE_single[2] and not self.worse
 
     @property
-    def text(self) -> str:
+    def text(self) -> Text:
         """The verdict with every number it rests on, as "x (y)": x with the cascade, y with a single loop."""
-        ours, single = self.IAE[2], self.IAE_single[2]
-        gain = f"load d2 {number(single / ours, 2)} times better" if ours < single else "load d2 is answered no better"
-        price = f", but worse: {', '.join(self.worse)}" if self.worse else ""
-        rows = zip(STEPS, self.IAE, self.IAE_single, strict=True)
-        each = ", ".join(f"{step} {number(a, DIGITS)} ({number(b, DIGITS)})" for step, a, b in rows)
-        peaks = f"outer {number(self.Ms_outer, DIGITS)}, inner {number(self.Ms_inner, DIGITS)}"
-        return (
-            f"The cascade {'pays' if self.pays else 'does not pay'}: {gain}{price}. "
-            f"IAE with it (with a single loop): {each}. Ms: {peaks} ({number(self.Ms_single, DIGITS)})."
+        values = {step: number(value, DIGITS) for step, value in zip(STEPS, self.IAE, strict=True)}
+        values |= {f"{step}_single": number(value, DIGITS) for step, value in zip(STEPS, self.IAE_single, strict=True)}
+        rest = said(
+            "IAE with it (with a single loop): r {r} ({r_single}), d1 {d1} ({d1_single}), d2 {d2} ({d2_single}). Ms: "
+            "outer {outer}, inner {inner} ({single}).",
+            **values,
+            outer=number(self.Ms_outer, DIGITS),
+            inner=number(self.Ms_inner, DIGITS),
+            single=number(self.Ms_single, DIGITS),
         )
+        return joined([self._outcome(), rest], " ")
+
+    def _outcome(self) -> Text:
+        ours, single = self.IAE[2], self.IAE_single[2]
+        worse = joined(self.worse, ", ")
+        if not ours < single:
+            if worse:
+                return said("The cascade does not pay: load d2 is answered no better, but worse: {worse}.", worse=worse)
+            return said("The cascade does not pay: load d2 is answered no better.")
+        ratio = number(single / ours, 2)
+        if worse:
+            return said(
+                "The cascade does not pay: load d2 {ratio} times better, but worse: {worse}.", ratio=ratio, worse=worse
+            )
+        return said("The cascade pays: load d2 {ratio} times better.", ratio=ratio)
 
 
 def cascade_verdict(

@@ -133,7 +133,7 @@ def _reference(Ms: float, angle: float) -> tuple[Trace, Trace]:
         "showlegend": False,
         "hoverinfo": "skip",
     }
-    name = f"Ms {Ms:.1f}"
+    name = said("Ms {Ms:.1f}", Ms=Ms)
     return palette.line(x, y, name, palette.NEUTRAL, "dot", 1.0, showlegend=False, hoverinfo="skip"), label
 
 

@@ -9,6 +9,7 @@ from simc_core.plants.plant import Plant
 from simc_core.simulation.scenario import Scenario
 from simc_core.studies.advice import Advice
 from simc_core.studies.tuned import Tuned
+from simc_core.wording import Text, joined, said
 
 INSIDE = 1 - 1e-9  # a step proposed ends just within the limit
 SMALL = 0.05  # of tau_c + theta: half a sampling period below it changes little
@@ -64,10 +65,11 @@ def error_integral(t: np.ndarray, r: np.ndarray, y: np.ndarray) -> float:
     return float(np.trapezoid(np.abs(r - y), t))
 
 
-def protections_compared(integrals: dict[str, float]) -> str:
+def protections_compared(integrals: dict[str, float]) -> Text:
     """IAE of each way to guard against windup, and which is best here, in words."""
-    each = ", ".join(f"{name} {number(value, 3)}" for name, value in integrals.items())
+    each = joined(said("{name} {value}", name=name, value=number(value, 3)) for name, value in integrals.items())
     best = min(integrals, key=lambda name: integrals[name])
     equal = all(math.isclose(value, integrals[best], rel_tol=0.01) for value in integrals.values())
-    verdict = "they differ by less than 1 %" if equal else f"best here: {best}"
-    return f"IAE over the time shown: {each}; {verdict}."
+    if equal:
+        return said("IAE over the time shown: {each}; they differ by less than 1 %.", each=each)
+    return said("IAE over the time shown: {each}; best here: {best}.", each=each, best=best)

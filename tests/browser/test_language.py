@@ -57,5 +57,11 @@ def test_instruments_speak_the_language_that_is_chosen(open_page):
         page.goto(f"{server.url}/cascade?lang={BRACKETS}")
         idle(page)
         at_rest(page)
+        assert left_in_english(page) == []
+        page.get_by_role("tab", name="⟦Settings⟧").click()
+        idle(page)
+        choose(page, page.get_by_role("combobox", name="⟦Language⟧"), "English")
+        expect(page.get_by_role("tab", name="Settings", exact=True)).to_have_attribute("aria-selected", "true")
+        expect(page.locator("html")).to_have_attribute("lang", "en")
     finally:
         server.stop()

@@ -25,9 +25,7 @@ from tests.oracles.pairs import PAIRS
 @pytest.mark.parametrize(("pair", "name"), [(5, "primary"), (6, "secondary"), (9, "primary")])
 def test_simc_of_an_unstable_block(pair, name):
     """Of pair 9 both blocks are unstable; the first one looked at is named."""
-    with pytest.raises(
-        InvalidParameter, match=f"{name} must be stable .* found 1 unstable poles: use direct synthesis"
-    ):
+    with pytest.raises(InvalidParameter, match=f"{name} must be stable .* found 1 unstable pole: use direct synthesis"):
         simc_cascade(*PAIRS[pair])
 
 

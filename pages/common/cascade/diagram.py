@@ -13,8 +13,9 @@ import streamlit as st
 from pages.common.parts.settings_text import form_shown
 from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy
+from pages.common.words import number, numeral, words
 from simc_core.controllers.forms import Controller
-from simc_core.notation import latex_factors, number, plain
+from simc_core.notation import latex_factors, plain
 from simc_core.plants.plant import Plant
 
 LINE, CHARACTER, SMALL = 14, 6.3, 4.6  # px: line height, width of a letter and of one in an exponent
@@ -115,7 +116,7 @@ def _plant_box(index: str, plant: Plant, width: int) -> Box:
     name = _indexed("G", index)
     top, bottom = (_wrapped(factors, width) for factors in latex_factors(plant))
     if len(top) > MOST_LINES or len(bottom) > MOST_LINES:
-        return Box("box", name, ("as on top",))
+        return Box("box", name, (words("as on top"),))
     return Box("box", name, top, bottom)
 
 
@@ -137,7 +138,7 @@ def _width(latex: str) -> float:
 
 def _svg_text(latex: str) -> str:
     """The little LaTeX of latex_factors as SVG text: exponents raised, real minus signs."""
-    text = latex.replace(r"\cdot", "·").replace("-", "−").replace(" s", "\u2009s")
+    text = numeral(latex).replace(r"\cdot", "·").replace("-", "−").replace(" s", "\u2009s")
     pieces = re.split(r"\^(?:\{([^}]*)\}|(\d))", text)
     shown, raised = "", False
     for i in range(0, len(pieces), 3):
@@ -216,9 +217,12 @@ def _svg(kind: str, width: float, height: float, parts: list[str], study: Cascad
 def described(study: CascadeStudy) -> str:
     """The diagram in words, for those who do not see it."""
     loop, cascade = study.loop, study.cascade
-    return (
-        f"Block diagram. The outer {cascade.outer} controller Ca compares the set point r1 with y1 and gives the set "
-        f"point r2 of the inner {cascade.inner} controller Cb, which compares it with y2 and drives Gb = "
-        f"{plain(loop.secondary)}, with d2 added at its input. Its output y2 plus d1 drives Ga = "
-        f"{plain(loop.primary)}, whose output is y1."
+    return words(
+        "Block diagram. The outer {outer} controller Ca compares the set point r1 with y1 and gives the set point r2 "
+        "of the inner {inner} controller Cb, which compares it with y2 and drives Gb = {Gb}, with d2 added at its "
+        "input. Its output y2 plus d1 drives Ga = {Ga}, whose output is y1.",
+        outer=cascade.outer,
+        inner=cascade.inner,
+        Gb=numeral(plain(loop.secondary)),
+        Ga=numeral(plain(loop.primary)),
     )

@@ -9,8 +9,15 @@ from pages.common.cascade.readout import separation, trouble
 from pages.common.parts.symbols import sentence, spoken, symbols
 from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy, sounder, speed_symbol
+from pages.common.words import words
 from simc_core.errors import NotReducible, SimcError
 from simc_core.notation import number
+from simc_core.wording import said
+
+SPEED = {
+    "tau_c_inner": said("{symbol} (inner) = {value}", symbol="", value=""),
+    "tau_c_outer": said("{symbol} (outer) = {value}", symbol="", value=""),
+}
 
 
 def show(study: CascadeStudy) -> None:
@@ -21,7 +28,7 @@ def show(study: CascadeStudy) -> None:
         for note in study.design.notes:
             st.warning(sentence(note))
         if study.unsettled:
-            st.warning(symbols(f"No IAE: {study.unsettled}"))
+            st.warning(symbols(said("No IAE: {why}", why=study.unsettled)))
         if study.sound and (study.cascade.method == "synthesis" or study.separate):
             st.caption(separation(study))
 
@@ -29,15 +36,27 @@ def show(study: CascadeStudy) -> None:
 def _unsound(study: CascadeStudy) -> None:
     """What is not stable, and slower loops that were tried, to click."""
     change = sounder(study)
-    letter = speed_symbol(study.cascade)
-    speeds = " and ".join(
-        f"${letter}$ ({name.removeprefix('tau_c_')}) = {number(value)}" for name, value in change.items()
+    symbol = f"${speed_symbol(study.cascade)}$"
+    speeds = [SPEED[name].put(symbol=symbol, value=number(value)) for name, value in change.items()]
+    remedy = said("No slower loops were found that are stable.")
+    if len(speeds) == 1:
+        remedy = said("Take {speed}: both loops are then stable.", speed=speeds[0])
+    elif speeds:
+        remedy = said("Take {inner} and {outer}: both loops are then stable.", inner=speeds[0], outer=speeds[1])
+    st.error(
+        words(
+            "**{trouble}**, so nothing is said of margins and metrics. *{remedy}*",
+            trouble=trouble(study),
+            remedy=remedy,
+        )
     )
-    remedy = f"Take {speeds}: both loops are then stable." if change else "No slower loops were found that are stable."
-    st.error(f"**{trouble(study)}**, so nothing is said of margins and metrics. *{remedy}*")
     if change:
         st.button(
-            f"Take {spoken(speeds)}",
+            spoken(
+                said("Take {inner} and {outer}", inner=speeds[0], outer=speeds[1])
+                if len(speeds) > 1
+                else said("Take {speed}", speed=speeds[0])
+            ),
             key="remedy_unsound",
             type="tertiary",
             icon=":material/arrow_forward:",
@@ -52,7 +71,7 @@ def viewed() -> Iterator[None]:
     try:
         yield
     except SimcError as error:
-        st.warning(f"**This cannot be shown.** {sentence(str(error))}")
+        st.warning(words("**This cannot be shown.** {error}", error=sentence(str(error))))
 
 
 def offer_synthesis(refusal: SimcError) -> None:
@@ -61,7 +80,7 @@ def offer_synthesis(refusal: SimcError) -> None:
     unstable = cascade.primary.unstable_poles or cascade.secondary.unstable_poles
     if cascade.method == "simc" and (unstable or isinstance(refusal, NotReducible)):
         st.button(
-            "Use direct synthesis",
+            words("Use direct synthesis"),
             key="use_synthesis",
             type="primary",
             on_click=state.change,

@@ -6,6 +6,7 @@ from pages.common.parts.panel import Panel, field, show
 from pages.common.parts.units import time_text
 from pages.common.session import state
 from pages.common.studies.cascade import CascadeStudy, frequency_responses, starts, time_responses
+from pages.common.words import words
 from simc_core.figures import (
     inner_output_figure,
     input_figure,
@@ -27,22 +28,28 @@ def panels(study: CascadeStudy) -> None:
     judged = study.outer, study.inner
     field(
         (
-            Panel("y1", "y₁", "Output y1 after steps of r, d1, d2", output_figure(curves, HEIGHT, stable)),
-            Panel("y2", "y₂", "Inner output y2 and its set point r2", inner_output_figure(curves, HEIGHT, stable)),
-            Panel("u", "u", "Input u of Gb after steps of r, d1, d2", input_figure(curves, HEIGHT, stable)),
+            Panel("y1", "y₁", words("Output y1 after steps of r, d1, d2"), output_figure(curves, HEIGHT, stable)),
+            Panel(
+                "y2", "y₂", words("Inner output y2 and its set point r2"), inner_output_figure(curves, HEIGHT, stable)
+            ),
+            Panel("u", "u", words("Input u of Gb after steps of r, d1, d2"), input_figure(curves, HEIGHT, stable)),
             Panel(
                 "nyquist",
-                "Nyquist",
-                "Nyquist curves of both loops with the circles of their Ms",
+                words("Nyquist"),
+                words("Nyquist curves of both loops with the circles of their Ms"),
                 nested_nyquist_figure(*frequency_responses(study), judged, HEIGHT),
             ),
         )
     )
     d1, d2 = (time_text(begins, state.design_now().sheet) for begins in starts(curves[0][1]))
     st.caption(
-        f"Unit steps: set point at t = 0, $d_1$ at the input of $G_a$ at t = {d1}, $d_2$ at the input of $G_b$ "
-        f"at t = {d2}. Dashed: one PID controller for $G_a G_b$, "
-        "without the measurement of $y_2$. Both blocks with their exact dead times."
+        words(
+            "Unit steps: set point at t = 0, $d_1$ at the input of $G_a$ at t = {d1}, $d_2$ at the input of $G_b$ "
+            "at t = {d2}. Dashed: one PID controller for $G_a G_b$, without the measurement of $y_2$. Both blocks "
+            "with their exact dead times.",
+            d1=d1,
+            d2=d2,
+        )
     )
 
 
@@ -52,15 +59,15 @@ def frequencies(study: CascadeStudy) -> None:
     loop = study.loop
     left, right = st.columns(2, gap="small")
     with left:
-        st.markdown("**Outer loop**, $L_a = C_a G_a T_b$")
+        st.markdown(words("**Outer loop**, $L_a = C_a G_a T_b$"))
         curve = nested_bode_curve(loop.outer_loop, outer.omega)
         figure = open_loop_figure([("La", curve)], study.outer, crossings(loop.outer_loop), TALL)
-        show(figure, "bode_outer", "Bode diagram of the outer loop, the inner one closed")
+        show(figure, "bode_outer", words("Bode diagram of the outer loop, the inner one closed"))
     with right:
-        st.markdown("**Inner loop**, $L_b = C_b G_b$")
+        st.markdown(words("**Inner loop**, $L_b = C_b G_b$"))
         curve = bode_curve(loop.inner_loop.L, inner.omega)
         figure = open_loop_figure([("Lb", curve)], study.inner, crossings(loop.inner_loop), TALL)
-        show(figure, "bode_inner", "Bode diagram of the inner loop")
-    st.markdown("**Sensitivities**, $S_a = 1/(1+L_a)$ and $S_b = 1/(1+L_b)$")
+        show(figure, "bode_inner", words("Bode diagram of the inner loop"))
+    st.markdown(words("**Sensitivities**, $S_a = 1/(1+L_a)$ and $S_b = 1/(1+L_b)$"))
     figure = nested_sensitivity_figure(outer, inner, (study.outer, study.inner), HEIGHT)
-    show(figure, "sensitivities", "Magnitude of both sensitivities over frequency")
+    show(figure, "sensitivities", words("Magnitude of both sensitivities over frequency"))

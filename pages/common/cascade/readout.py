@@ -8,9 +8,10 @@ from pages.common.parts.quantities import QUANTITIES
 from pages.common.parts.strip import Reading, cell_html, gain_margin, peak_html, reading
 from pages.common.parts.symbols import symbols
 from pages.common.studies.cascade import CascadeStudy, speed_symbol, verdict
+from pages.common.words import number, translated, words
 from simc_core.cascade.by_simc import SEPARATE
-from simc_core.notation import number
 from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.wording import Text, said
 
 STEPS = ("IAE_setpoint", "IAE_d1", "IAE_d2")
 
@@ -27,7 +28,7 @@ def strip_html(study: CascadeStudy) -> str:
     if not study.sound:
         return (
             '<div class="strip alarm" role="status"><div class="first" style="grid-column: 1 / -1">'
-            f"<b>{trouble(study)}</b><span>margins and IAE do not exist</span></div></div>"
+            f"<b>{translated(trouble(study))}</b><span>{words('margins and IAE do not exist')}</span></div></div>"
         )
     rows = [
         peak_html(reading("Ms_outer", study.outer.Ms), study.outer.Ms)
@@ -35,14 +36,15 @@ def strip_html(study: CascadeStudy) -> str:
         peak_html(reading("Ms_inner", study.inner.Ms), study.inner.Ms)
         + "".join(map(cell_html, [*_margins(study.inner), *_IAE_single(study)])),
     ]
-    return f'<div class="strip two" role="status" aria-label="Figures that decide">{"".join(rows)}</div>'
+    label = words("Figures that decide")
+    return f'<div class="strip two" role="status" aria-label="{label}">{"".join(rows)}</div>'
 
 
-def trouble(study: CascadeStudy) -> str:
+def trouble(study: CascadeStudy) -> Text:
     """What is wrong with a cascade that is not sound."""
     if study.stability.verdict != "stable":
-        return "Cascade not stable"
-    return "Inner loop not stable on its own"
+        return said("Cascade not stable")
+    return said("Inner loop not stable on its own")
 
 
 def sentence(study: CascadeStudy) -> str:
@@ -50,19 +52,30 @@ def sentence(study: CascadeStudy) -> str:
     found = verdict(study)
     if found is None:
         why = study.no_single or study.unsettled
-        return f"No comparison with a single loop: {symbols(why)}."
+        return words("No comparison with a single loop: {why}.", why=symbols(why))
     return symbols(found.text)
 
 
 def separation(study: CascadeStudy) -> str:
     """How far apart the loops are in time, in words."""
-    symbol = speed_symbol(study.cascade)
-    ratio = f"Time scales: outer ${symbol}$ / inner ${symbol}$ = **{number(study.separation)}**"
+    found = {"symbol": speed_symbol(study.cascade), "ratio": number(study.separation), "enough": SEPARATE}
     if study.cascade.method == "synthesis":
-        return f"{ratio}. The outer design knows the closed inner loop, so the two need not be far apart."
+        return words(
+            "Time scales: outer ${symbol}$ / inner ${symbol}$ = **{ratio}**. The outer design knows the closed inner "
+            "loop, so the two need not be far apart.",
+            **found,
+        )
     if study.separate:
-        return f"{ratio} ≥ {SEPARATE:g}. The loops separate: to the outer one the inner one is fast."
-    return f"{ratio} < {SEPARATE:g}. The loops work at the same speed and feel one another."
+        return words(
+            "Time scales: outer ${symbol}$ / inner ${symbol}$ = **{ratio}** ≥ {enough:g}. The loops separate: to the "
+            "outer one the inner one is fast.",
+            **found,
+        )
+    return words(
+        "Time scales: outer ${symbol}$ / inner ${symbol}$ = **{ratio}** < {enough:g}. The loops work at the same speed "
+        "and feel one another.",
+        **found,
+    )
 
 
 def _margins(judged: Margins) -> list[Reading]:
@@ -76,7 +89,8 @@ def _IAE(study: CascadeStudy) -> list[Reading]:
 def _IAE_single(study: CascadeStudy) -> list[Reading]:
     values = _values(study.single.performance if study.single else None)
     return [
-        reading(name, value, f"{QUANTITIES[name].label}, one loop") for name, value in zip(STEPS, values, strict=True)
+        reading(name, value, words("{figure}, one loop", figure=QUANTITIES[name].label))
+        for name, value in zip(STEPS, values, strict=True)
     ]
 
 

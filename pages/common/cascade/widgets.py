@@ -7,7 +7,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
-from pages.common.parts.settings_text import form_shown
+from pages.common.parts.settings_text import FORMS_NAMED, form_shown
 from pages.common.parts.sources import linked
 from pages.common.parts.units import time_text
 from pages.common.plant.entry import plant_entry
@@ -15,15 +15,36 @@ from pages.common.session import state
 from pages.common.session.cascade import METHODS, Cascade
 from pages.common.session.tuning import KINDS
 from pages.common.studies.cascade import USUAL_MS, CascadeStudy, of_row, scale, speed_symbol
+from pages.common.words import number, translated, words
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
 from simc_core.cascade.pairs import ROWS, PairRow
 from simc_core.controllers.forms import FORMS
-from simc_core.notation import number
+from simc_core.wording import Text, said
 
-BLOCKS = (("Ga", "Ga primary", "primary block Ga"), ("Gb", "Gb secondary", "secondary block Gb"))
-METHOD_NAMES = {"simc": "SIMC", "synthesis": "Direct synthesis"}
+BLOCKS = (
+    ("Ga", said("Ga primary"), said("Enter the primary block Ga"), said("Enter the primary block Ga as")),
+    ("Gb", said("Gb secondary"), said("Enter the secondary block Gb"), said("Enter the secondary block Gb as")),
+)
+METHOD_NAMES = {"simc": "SIMC", "synthesis": said("Direct synthesis")}
 SPEED_LETTERS = {"simc": "τc", "synthesis": "λ"}
-LOOPS = {"outer": "Outer loop", "inner": "Inner loop"}
+LOOPS = {"outer": said("Outer loop"), "inner": said("Inner loop")}
+SPEED_OF = {
+    "outer": said("{symbol} of the outer loop", symbol=""),
+    "inner": said("{symbol} of the inner loop", symbol=""),
+}
+EXACT_OF = {
+    "outer": said("{symbol} of the outer loop, exact", symbol=""),
+    "inner": said("{symbol} of the inner loop, exact", symbol=""),
+}
+FILTER_OF = {
+    "outer": said("Derivative filter of the outer loop: $\\tau_F = \\lambda/N$."),
+    "inner": said("Derivative filter of the inner loop: $\\tau_F = \\lambda/N$."),
+}
+NOT_IN_FORM = {
+    "series": said("${C}$ has no series form: shown in the {shown} one.", C="", shown=""),
+    "ideal": said("${C}$ has no ideal form: shown in the {shown} one.", C="", shown=""),
+    "parallel": said("${C}$ has no parallel form: shown in the {shown} one.", C="", shown=""),
+}
 SPEEDS = [10 ** (i / 20) for i in range(-40, 21)]  # of a slider, in units of the loop's own times
 PEAKS = [1.05 + 0.05 * i for i in range(80)]
 
@@ -31,13 +52,13 @@ PEAKS = [1.05 + 0.05 * i for i in range(80)]
 def blocks() -> None:
     """Ga and Gb, each folded away; or a design of the paper."""
     with st.container(horizontal=True, gap="xsmall", key="blocks"):
-        for name, label, title in BLOCKS:
-            folded = st.popover(label, help=f"Enter the {title}", key=f"enter_{name}", on_change="rerun")
+        for name, label, enter, enter_as in BLOCKS:
+            folded = st.popover(translated(label), help=translated(enter), key=f"enter_{name}", on_change="rerun")
             if folded.open:
                 with folded:
-                    plant_entry(name, f"Enter the {title} as")
+                    plant_entry(name, translated(enter_as))
                     st.button(
-                        "Take G of the other pages",
+                        words("Take G of the other pages"),
                         key=f"take_{name}",
                         on_click=state.change,
                         kwargs={name: state.plant()},
@@ -46,13 +67,16 @@ def blocks() -> None:
     here = next((title for title, cascade in titles.items() if cascade == state.cascade()), None)
     state.set_widget("pair", here)
     st.selectbox(
-        "From the literature [PSB]",
+        words("From the literature [PSB]"),
         list(titles),
+        format_func=translated,
         key="pair",
-        placeholder="Published pairs (Prelić et al.)",
+        placeholder=words("Published pairs (Prelić et al.)"),
         label_visibility="collapsed",
-        help="The ten process pairs of Prelić, Šekara and Bošković, with the designs they print; PI or PID "
-        "outside, Ms inside · outside.",
+        help=words(
+            "The ten process pairs of Prelić, Šekara and Bošković, with the designs they print; PI or PID outside, Ms "
+            "inside · outside."
+        ),
         on_change=_take_pair,
     )
 
@@ -66,15 +90,17 @@ def method() -> None:
     )
     with row:
         st.segmented_control(
-            "Method",
+            words("Method"),
             METHODS,
-            format_func=METHOD_NAMES.get,
+            format_func=lambda method: translated(METHOD_NAMES[method]),
             key="method",
             on_change=_take_method,
             help=linked(
-                "SIMC: half rule and $\\tau_c$, inner loop first, then the outer one on what it sees [SK03]. Direct "
-                "synthesis: a Maclaurin expansion of the controller that gives a wanted response, for integrating and "
-                "unstable blocks too [PSB]."
+                words(
+                    "SIMC: half rule and $\\tau_c$, inner loop first, then the outer one on what it sees [SK03]. "
+                    "Direct synthesis: a Maclaurin expansion of the controller that gives a wanted response, for "
+                    "integrating and unstable blocks too [PSB]."
+                )
             ),
         )
         design_number(
@@ -82,8 +108,10 @@ def method() -> None:
             "b",
             width=58,
             under=under,
-            help="Set-point weight of the outer controller: its proportional action sees $b\\,r - y_1$. Less than 1 "
-            "softens set-point steps; stability and the response to $d_1$, $d_2$ stay as they are.",
+            help=words(
+                "Set-point weight of the outer controller: its proportional action sees $b\\,r - y_1$. Less than 1 "
+                "softens set-point steps; stability and the response to $d_1$, $d_2$ stay as they are."
+            ),
         )
 
 
@@ -96,12 +124,17 @@ def loops(study: CascadeStudy | None, slider: bool = True) -> None:
 
 def form(study: CascadeStudy | None) -> str:
     """The form in which the diagram shows settings; says which controller has none in it."""
-    st.segmented_control("Settings in the diagram", FORMS, **state.bound("form"))
+    st.segmented_control(
+        words("Settings in the diagram"),
+        FORMS,
+        format_func=lambda each: translated(FORMS_NAMED[each]),
+        **state.bound("form"),
+    )
     chosen = state.value("form")
     for name, controller in (("a", study.loop.outer), ("b", study.loop.inner)) if study else ():
         shown = form_shown(controller, chosen)
         if shown != chosen:
-            st.caption(f"$C_{name}$ has no {chosen} form: shown in the {shown} one.")
+            st.caption(translated(NOT_IN_FORM[chosen].put(C=f"C_{name}", shown=FORMS_NAMED[shown])))
     return chosen
 
 
@@ -111,13 +144,13 @@ def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
     filtered = cascade.method == "synthesis" and getattr(cascade, loop) == "PID"
     row, under = st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall"), st.container()
     with row:
-        st.segmented_control(LOOPS[loop], KINDS, **state.bound(loop))
+        st.segmented_control(translated(LOOPS[loop]), KINDS, **state.bound(loop))
         key = f"{loop}_by"
         state.set_widget(key, asked)
         st.segmented_control(
-            "speed from",
+            words("speed from"),
             ("auto", "tau_c", "Ms"),
-            format_func={"auto": "auto", "tau_c": SPEED_LETTERS[cascade.method], "Ms": "Ms"}.get,
+            format_func={"auto": words("auto"), "tau_c": SPEED_LETTERS[cascade.method], "Ms": "Ms"}.get,
             key=key,
             on_change=_take_asked,
             args=(loop, key, study),
@@ -135,18 +168,25 @@ def _loop(loop: str, study: CascadeStudy | None, slider: bool) -> None:
 
 def _meaning(cascade: Cascade) -> str:
     if cascade.method == "simc":
-        return "auto: $\\tau_c = \\theta$ of the reduced model, tight. $M_s$: the smallest $\\tau_c$ with that peak."
-    return f"auto: $M_s$ = {USUAL_MS:g}. $M_s$: the smallest $\\lambda$ with a stable loop and that peak."
+        return words(
+            "auto: $\\tau_c = \\theta$ of the reduced model, tight. $M_s$: the smallest $\\tau_c$ with that peak."
+        )
+    return words(
+        "auto: $M_s$ = {usual:g}. $M_s$: the smallest $\\lambda$ with a stable loop and that peak.", usual=USUAL_MS
+    )
 
 
 def _outcome(loop: str, asked: str, study: CascadeStudy) -> str:
     """What the choice comes to."""
-    speed = f"${speed_symbol(study.cascade)}$ = {time_text(study.speeds[loop == 'outer'], state.design_now().sheet)}"
+    symbol = speed_symbol(study.cascade)
+    time = time_text(study.speeds[loop == "outer"], state.design_now().sheet)
     if not study.sound:
-        return speed
-    peak = f"$M_s$ = {number(getattr(study, loop).Ms)}"
+        return f"${symbol}$ = {time}"
+    Ms = number(getattr(study, loop).Ms)
     by_peak = asked == "Ms" or (asked == "auto" and study.cascade.method == "synthesis")
-    return f"{peak} needs {speed}" if by_peak else f"{speed} gives {peak}"
+    if by_peak:
+        return words("$M_s$ = {Ms} needs ${symbol}$ = {time}", Ms=Ms, symbol=symbol, time=time)
+    return words("${symbol}$ = {time} gives $M_s$ = {Ms}", Ms=Ms, symbol=symbol, time=time)
 
 
 def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> None:
@@ -159,7 +199,7 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
     if slider:
         slide, place = st.columns([5, 3], vertical_alignment="bottom", gap="small")
         slide.select_slider(
-            f"{symbol} of the {loop} loop",
+            translated(SPEED_OF[loop].put(symbol=symbol)),
             stops,
             format_func=lambda stop: number(stop * unit, 3),
             label_visibility="collapsed",
@@ -172,7 +212,7 @@ def _knob(loop: str, asked: str, study: CascadeStudy | None, slider: bool) -> No
         )
     design_number(
         name,
-        f"{symbol} of the {loop} loop, exact",
+        translated(EXACT_OF[loop].put(symbol=symbol)),
         quantity="time" if asked == "tau_c" else "",
         key=f"{name}_exact",
         place=place,
@@ -189,14 +229,14 @@ def _filter(loop: str, under: DeltaGenerator) -> None:
             "N",
             under=under,
             width=56,
-            help=f"Derivative filter of the {loop} loop: $\\tau_F = \\lambda/N$.",
+            help=translated(FILTER_OF[loop]),
         )
 
 
 def _cancel() -> None:
     st.checkbox(
-        "τF cancels the inner zero",
-        help=linked("$\\tau_F = \\eta_1$ of the inner loop in place of $\\lambda/N$; for $K_d \\leq 0$ [PSB]."),
+        words("τF cancels the inner zero"),
+        help=linked(words("$\\tau_F = \\eta_1$ of the inner loop in place of $\\lambda/N$; for $K_d \\leq 0$ [PSB].")),
         **state.bound(
             "filter_outer",
             show=lambda value: value == "zero",
@@ -242,7 +282,13 @@ def _take_pair() -> None:
         state.replace_design(replace(state.design_now(), cascade=of_row(chosen)))
 
 
-def _title(row: PairRow) -> str:
+def _title(row: PairRow) -> Text:
     if row.method == "simc":
-        return f"Pair {row.pair}, SIMC"
-    return f"Pair {row.name}, {row.outer}, Ms {row.Ms_inner:g} · {row.Ms_outer:g}"
+        return said("Pair {pair}, SIMC", pair=row.pair)
+    return said(
+        "Pair {name}, {kind}, Ms {inner:g} · {outer:g}",
+        name=row.name,
+        kind=row.outer,
+        inner=row.Ms_inner,
+        outer=row.Ms_outer,
+    )

@@ -9,6 +9,7 @@ from pages.common.parts.panel import show
 from pages.common.parts.rules_choice import rules_choice
 from pages.common.parts.sources import linked
 from pages.common.parts.symbols import sentence, symbols
+from pages.common.parts.tabs import tabs
 from pages.common.parts.units import time_text, with_plain_unit
 from pages.common.session import state
 from pages.common.studies.single import Study
@@ -20,6 +21,7 @@ from simc_core.reduction.records import Reduction
 from simc_core.wording import Text, said
 
 HEIGHT, TALL = 260, 400  # px
+COMPARED = said("Step response"), said("Bode"), said("Error over frequency")
 ORDERS = {1: "1 (PI)", 2: "2 (PID)"}
 FAST = said(
     "**Made for fast control.** The model keeps the beginning of the response, not its steady state: the rules for "
@@ -141,9 +143,7 @@ def candidates(reduction: Reduction) -> None:
 def comparison(study: Study) -> None:
     """Reduced against full model: over time, over frequency, and in numbers."""
     compared = model_error(study.loop.plant, study.model, study.controller)
-    step, bode, error = st.tabs(
-        [words("Step response"), words("Bode"), words("Error over frequency")], key="comparison", on_change="rerun"
-    )  # only the open one is made
+    step, bode, error = tabs(COMPARED, "comparison")  # only the open one is made
     if step.open:
         with step:
             figure = plant_step_figure(compared.step, compared.model_step, HEIGHT)

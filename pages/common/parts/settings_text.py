@@ -18,6 +18,12 @@ UNITS = {
     "Kd": "OP time/PV",
     **dict.fromkeys(("tau_I", "tau_D", "tau_F"), "time"),
 }
+FORMS_NAMED = {"series": said("series"), "ideal": said("ideal"), "parallel": said("parallel")}
+NO_FORM = {
+    "series": said("No series form: {error}", error=""),
+    "ideal": said("No ideal form: {error}", error=""),
+    "parallel": said("No parallel form: {error}", error=""),
+}
 ACTION = {"reverse": said("reverse action"), "direct": said("direct action")}
 ACTIONS = {"reverse": said("The output falls when PV rises."), "direct": said("The output rises when PV rises.")}
 

@@ -46,7 +46,7 @@ SYMBOLS = {
     ">=": "≥",
     "deg": "°",
 }
-WORD = re.compile(r"(?<![\w'])(?:" + "|".join(map(re.escape, sorted(SYMBOLS, key=len, reverse=True))) + r")(?![\w'])")
+WORD = re.compile(r"(?<![\w'\\])(?:" + "|".join(map(re.escape, sorted(SYMBOLS, key=len, reverse=True))) + r")(?![\w'])")
 SMALL_WORD = re.compile(r"[^\W\d_]{3}|no ")
 NEGATIVE = re.compile(r"(?<![\w.^{)-])-(?=[\d.])")  # the sign of a number
 

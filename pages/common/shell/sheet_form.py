@@ -40,7 +40,7 @@ def _fields() -> None:
         help=words("Naming it the first time changes no number; another unit later converts all times."),
     )
     if converted := state.memory("unit_said", str):
-        st.caption(converted)
+        st.caption(translated(converted))
     for signal, label in SIGNALS:
         name, unit = st.columns(2, gap="small")
         with name:
@@ -65,7 +65,7 @@ def _take_unit() -> None:
     except SimcError as error:
         state.remember(
             "unit_said",
-            words(
+            said(
                 "Not converted, the unit stays {old}: in {new} a number would be out of bounds ({error}).",
                 old=old,
                 new=new,
@@ -76,6 +76,7 @@ def _take_unit() -> None:
     converted = old and new and old != new
     state.remember(
         "unit_said",
-        words("All times were converted from {old} to {new}: the loop is the same.", old=old, new=new)
-        * bool(converted),
+        said("All times were converted from {old} to {new}: the loop is the same.", old=old, new=new)
+        if converted
+        else "",
     )

@@ -222,6 +222,6 @@ def _single(cascade: Cascade) -> tuple[SingleLoop | None, str]:
     loop = replace(loop, outer=loop.outer.with_weight(cascade.b))
     judged = margins(loop.outer_loop)
     if not judged.stable:
-        return SingleLoop(loop, None, math.nan), "it is not stable"
+        return SingleLoop(loop, None, math.nan), said("it is not stable")
     found, why = _performance(loop)
     return SingleLoop(loop, found, judged.Ms), why

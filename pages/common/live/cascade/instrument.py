@@ -11,9 +11,24 @@ from pages.common.live.kit.held import Held
 from pages.common.session import state
 from pages.common.session.cascade import Cascade
 from pages.common.studies.cascade import study
+from pages.common.words import translated
+from simc_core.wording import said
 
 KEY = "live_cascade"
-SLOW = "this cascade takes too long to compute for them to follow it."
+SLOW = {
+    ("inner",): said(
+        "Curves come when the slider of the inner loop is released: this cascade takes too long to compute for them "
+        "to follow it."
+    ),
+    ("outer",): said(
+        "Curves come when the slider of the outer loop is released: this cascade takes too long to compute for them "
+        "to follow it."
+    ),
+    ("inner", "outer"): said(
+        "Curves come when the slider of the inner or the outer loop is released: this cascade takes too long to "
+        "compute for them to follow it."
+    ),
+}
 
 
 def cascade_instrument(cascade: Cascade) -> None:
@@ -43,7 +58,7 @@ def cascade_instrument(cascade: Cascade) -> None:
             else:
                 slow.append(loop)
         if slow:
-            st.caption(f"Curves come when the slider of the {' or the '.join(slow)} loop is released: {SLOW}")
+            st.caption(translated(SLOW[tuple(slow)]))
 
 
 def _pause() -> None:

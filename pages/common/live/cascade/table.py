@@ -18,10 +18,11 @@ from pages.common.live.kit.instants import instants
 from pages.common.live.kit.judgement import axis_labels, judgement
 from pages.common.live.kit.naming import name_of
 from pages.common.live.kit.packing import figures, pack
-from pages.common.parts.settings_text import UNITS, sizes
+from pages.common.parts.settings_text import ACTION, UNITS, sizes
 from pages.common.session.cascade import Cascade
 from pages.common.session.sheet import Sheet
 from pages.common.studies.cascade import CascadeStudy, designed, scale
+from pages.common.words import translated
 from simc_core.cascade.design import CascadeDesign
 from simc_core.controllers.forms import Controller, ParallelPid
 from simc_core.errors import SimcError
@@ -29,6 +30,7 @@ from simc_core.loops.frequency_grid import omega_grid
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.simulation.simulate_nested import horizon
+from simc_core.wording import said
 
 LOOPS = ("inner", "outer")
 SHORTEST, LONGEST = 0.2, 10.0  # on a slider, of tight tau_c, or of the dead time in the loop
@@ -36,9 +38,13 @@ POINTS = 120  # after each step, closer together at first
 CURVES = ("y1", "y2", "u")
 METRICS = ("IAE_setpoint", "IAE_d1", "IAE_d2")
 SHOWN = ("Ms_outer", "Ms_inner", "GM", "PM_deg", "delay_margin", *METRICS)
+SYMBOLS = {"simc": "τ<sub>c</sub>", "synthesis": "λ"}
+BESIDE = {"inner": said("{symbol} inner", symbol=""), "outer": said("{symbol} outer", symbol="")}
 NAMES = {
-    "simc": ("τ<sub>c</sub>", "Closed-loop time constant tau_c"),
-    "synthesis": ("λ", "Time constant lambda"),
+    ("simc", "inner"): said("Closed-loop time constant tau_c of the inner loop"),
+    ("simc", "outer"): said("Closed-loop time constant tau_c of the outer loop"),
+    ("synthesis", "inner"): said("Time constant lambda of the inner loop"),
+    ("synthesis", "outer"): said("Time constant lambda of the outer loop"),
 }
 
 
@@ -106,9 +112,14 @@ def table_name(subject: Subject, grid: Grid, loop: str) -> str:
 def setup(subject: Subject, grid: Grid) -> bytes:
     """What stays while the sliders move."""
     limits, omega = bounds(subject.rest), _omega(subject.rest)
-    symbol, words = NAMES[subject.rest.method]
+    method = subject.rest.method
     sliders = {
-        loop: {"low": low, "high": high, "symbol": f"{symbol} {loop}", "label": f"{words} of the {loop} loop"}
+        loop: {
+            "low": low,
+            "high": high,
+            "symbol": translated(BESIDE[loop].put(symbol=SYMBOLS[method])),
+            "label": translated(NAMES[method, loop]),
+        }
         for loop, (low, high) in limits.items()
     }
     header = {
@@ -141,7 +152,7 @@ def exact(subject: Subject, grid: Grid, study: CascadeStudy, answers: int, sheet
         "sound": study.sound,
         "inner_stable": study.stability.inner.verdict == "stable",
         "settings": {loop: _shown(getattr(study.design, loop)) for loop in LOOPS},
-        "actions": {loop: f"{getattr(study.design, loop).action} action" for loop in LOOPS},
+        "actions": {loop: translated(ACTION[getattr(study.design, loop).action]) for loop in LOOPS},
         "metrics": figures(_judged(study)),
     }
     blocks = {"parameters": _parameters(study.design)}
