@@ -16,8 +16,9 @@ from pages.common.from_data import (
 from pages.common.from_data.graphical_view import graphical
 from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import sentence
+from pages.common.parts.tabs import tabs
 from pages.common.shell import header
-from pages.common.words import translated, words
+from pages.common.words import words
 from simc_core.wording import said
 
 WAYS = (said("How fast may the loop be?"), said("Auto-tuning"), points_view.TITLE)
@@ -51,7 +52,7 @@ with shown:
         else:
             models_view.ranking(fits, model, trend)
             models_view.card(model, trend, work.names())
-            speed, auto, points = st.tabs([translated(way) for way in WAYS], key="ways", on_change="rerun")
+            speed, auto, points = tabs(WAYS, "ways")
             if speed.open:
                 with speed:
                     tuning_view.show(work, trend, fits, model)

@@ -132,7 +132,7 @@ def card(model: Identified, trend: Trend, names: list[str]) -> None:
             key="to_points",
             icon=":material/arrow_forward:",
             type="tertiary",
-            on_click=lambda: state.set_widget("ways", translated(points_view.TITLE)),
+            on_click=lambda: state.set_widget("ways", points_view.TITLE),
         )
     if len(model.gains) > 1:
         _gains(model, trend, names)
