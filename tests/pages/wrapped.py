@@ -28,7 +28,10 @@ NOT_SEEN = {  # fields of Streamlit's messages that hold names, addresses and co
 }
 FOREIGN = {"text", "mine", "known", "file"}
 HEADINGS = {column.name for column in COLUMNS}  # of lists of loops, as they stand in files
-FORMULAS = {"2.2 exp(-20s)/(180s+1)"}  # as code, which every language writes with points
+FORMULAS = {  # as code, and typed numbers, which every language writes with points
+    "2.2 exp(-20s)/(180s+1)",
+    "Time\tPV\tOP\n0\t20.5\t40\n1\t20.5\t45",
+}
 IN_FIGURES = {"text", "title", "name", "hovertemplate", "customdata"}
 MARKUP = re.compile(
     r"(?P<code>(?P<fence>`+).*?(?<!`)(?P=fence)(?!`))|\$\$.*?\$\$|\$[^$]*\$|%\{[^{}]*\}|<style>.*?</style>|</?[a-zA-Z][^<>]*>|:material/\w+:|:\w+\["
@@ -189,9 +192,11 @@ def _of_figure(node, name: str = "") -> Iterator[tuple[str, str]]:
 
 
 def _of_table(table: pd.DataFrame, columns: str) -> Iterator[tuple[str, str]]:
-    labels = {name: column.get("label") for name, column in json.loads(columns or "{}").items()}
+    settings = json.loads(columns or "{}")
     for name in table.columns:
-        yield "column", labels.get(name) or str(name)
-        for cell in table[name]:
+        setting = settings.get(name, {})
+        yield "column", setting.get("label") or str(name)
+        shown = {one["value"]: one["label"] for one in setting.get("type_config", {}).get("options", ())}
+        for cell in [*shown, *table[name]]:
             if isinstance(cell, str):
-                yield f"cell of {name}", cell
+                yield f"cell of {name}", shown.get(cell, cell)

@@ -4,7 +4,7 @@ import numpy as np
 import streamlit as st
 
 from pages.common.parts.panel import show
-from pages.common.parts.structures import TITLES
+from pages.common.parts.structures import NAMES
 from pages.common.parts.symbols import sentence
 from pages.common.parts.units import time_text
 from pages.common.session import state
@@ -28,7 +28,7 @@ def measured_error_view(study: Study, design: Design) -> None:
     """Probabilities, a button that makes the loop safe, and the bands."""
     uncertainty = design.uncertainty
     Ms = peaks_of(uncertainty, study.controller)
-    st.markdown(summary(Ms, [TITLES[each.structure].lower() for each in uncertainty]))
+    st.markdown(summary(Ms, [NAMES[each.structure] for each in uncertainty]))
     if study.tuned:
         _safe_tau_c(study, design)
     omega, S = sensitivity(uncertainty, study.controller)
