@@ -14,8 +14,20 @@ from tests.pages.tools import address, copyables, run_app, run_page, unfold
 from tests.pages.wrapped import BRACKETS, left_in_english, offer_brackets, outside, speak_brackets
 
 # Pages whose words are all in the catalogue. Those below are still to do: docs/languages.md says how.
-DONE = ("home", "plant", "cascade", "half_rule", "accuracy", "sources", "rules", "take_home", "from_data", "lessons")
-TO_DO = ("tuning", "many")
+DONE = (
+    "home",
+    "plant",
+    "cascade",
+    "half_rule",
+    "accuracy",
+    "sources",
+    "rules",
+    "take_home",
+    "many",
+    "from_data",
+    "lessons",
+)
+TO_DO = ("tuning",)
 PLANTS = {
     "lags": "exp(-3s)/((6s+1)(4s+1)(2s+1))",
     "zeros": "(6s+1)(3s+1) exp(-0.3s)/((10s+1)(8s+1)(s+1))",
