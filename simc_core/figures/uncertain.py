@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.identification.frequency_band import FrequencyBand
+from simc_core.wording import said
 
 Array = NDArray[np.float64]
 LOWEST_PHASE = -360.0  # degrees; dead time winds on for ever
@@ -73,7 +74,7 @@ def response_band_figure(
     traces = [_band(t, low, high, color)]
     if r is not None:
         traces.append(palette.line(t, r, "r", palette.R, "dash", 1.4, hoverinfo="skip"))
-    traces.append(palette.line(t, nominal, "model", color, "solid", 2.2, hovertemplate="%{y:.4g}"))
+    traces.append(palette.line(t, nominal, said("model"), color, "solid", 2.2, hovertemplate="%{y:.4g}"))
     middle = max(1.0, float(np.abs(nominal).max()))
     bottom = max(float(low.min()), FAR[0] * middle)
     top = min(float(high.max()), FAR[1] * middle)
@@ -92,7 +93,7 @@ def peak_band_figure(omega: Array, nominal: Array, family: Array, limit: float, 
     traces = [
         _band(omega, low, high, palette.S),
         palette.line(omega, nominal, "|S|", palette.S, hovertemplate="%{y:.4g}"),
-        palette.line(omega[[0, -1]], [limit, limit], "limit", palette.NEUTRAL, "dot", 1.4, hoverinfo="skip"),
+        palette.line(omega[[0, -1]], [limit, limit], said("limit"), palette.NEUTRAL, "dot", 1.4, hoverinfo="skip"),
     ]
     top = float(np.clip(1.2 * high.max(), 2.5, 6.0))
     return palette.figure(
