@@ -40,6 +40,7 @@ SYMBOLS = {
     "PID",
     "Mst",
     "SIMC",
+    "iSIMC",
     "IAE",
     "exp",
     "cos",
