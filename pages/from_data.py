@@ -16,9 +16,12 @@ from pages.common.from_data import (
 from pages.common.from_data.graphical_view import graphical
 from pages.common.parts.foreign_text import told
 from pages.common.parts.symbols import sentence
+from pages.common.parts.tabs import tabs
 from pages.common.shell import header
+from pages.common.words import words
+from simc_core.wording import said
 
-WAYS = ("How fast may the loop be?", "Auto-tuning", points_view.TITLE)
+WAYS = (said("How fast may the loop be?"), said("Auto-tuning"), points_view.TITLE)
 
 design = header.show("from_data")
 with st.container(key="stack_from_data"):
@@ -45,11 +48,11 @@ with shown:
         with figure:
             record_view.figure(trend, design, part, model)
         if part is None or model is None:
-            st.error(f"**No model.** {sentence(fits.why)}")
+            st.error(words("**No model.** {why}", why=sentence(fits.why)))
         else:
             models_view.ranking(fits, model, trend)
             models_view.card(model, trend, work.names())
-            speed, auto, points = st.tabs(WAYS, key="ways", on_change="rerun")
+            speed, auto, points = tabs(WAYS, "ways")
             if speed.open:
                 with speed:
                     tuning_view.show(work, trend, fits, model)

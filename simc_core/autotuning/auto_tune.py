@@ -21,6 +21,7 @@ from simc_core.metrics.performance import Performance, performance
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
 from simc_core.studies.optimum import optimal
+from simc_core.wording import said
 
 PURPOSES = ("load", "setpoint")
 LIMITS = {"damped": 1.4, "fast": 2.0}
@@ -109,7 +110,9 @@ def auto_tune(uncertain: Uncertain, kind: str = "PI", probability: float = 0.95)
     True
     """
     if kind not in KINDS:
-        raise InvalidParameter(f"kind must be one of {', '.join(KINDS)}, found {str(kind)[:20]!r}")
+        raise InvalidParameter(
+            said("kind must be one of {kinds}, found {found!r}", kinds=", ".join(KINDS), found=str(kind)[:20])
+        )
     probability = checks.real("probability", probability, 0.5, 0.999)
     drawn = clouds(uncertain)
     omega = grid(drawn)
@@ -125,8 +128,13 @@ def auto_tune(uncertain: Uncertain, kind: str = "PI", probability: float = 0.95)
                 refused = refused or error
     if not found:
         raise NotIdentifiable(
-            f"No {kind} settings keep Ms within {max(LIMITS.values()):g} with {100 * probability:g} %: the trend says "
-            "too little to tune on. Repeat the test with a larger step, or two."
+            said(
+                "No {kind} settings keep Ms within {limit:g} with {probability:g} %: the trend says too little to tune "
+                "on. Repeat the test with a larger step, or two.",
+                kind=kind,
+                limit=max(LIMITS.values()),
+                probability=100 * probability,
+            )
         ) from refused
     return tuple(found)
 
@@ -135,7 +143,7 @@ def _estimate(drawn: Sequence[Cloud]) -> Plant:
     """The estimated plant; where its dead time is not resolved, with what it may be: else no gain would be too high."""
     plants = drawn[0].plants(1)
     if not plants:
-        raise NotIdentifiable("The model is outside the bounds of a plant that can be tuned.")
+        raise NotIdentifiable(said("The model is outside the bounds of a plant that can be tuned."))
     scale, _ = scales(drawn)
     return replace(plants[0], theta=max(plants[0].theta, float(np.std(drawn[0].values[:, 0])), 1e-3 * scale))
 
@@ -176,7 +184,7 @@ def _settings(
         if bound < LOWEST_BOUND:
             break
     if best is None:
-        raise NotIdentifiable(f"No settings keep Ms within {limit:g}")
+        raise NotIdentifiable(said("No settings keep Ms within {limit:g}", limit=limit))
     controller = best[1]
     loop = Loop(plant, controller)
     Ms = peaks(drawn, responses, omega, controller)

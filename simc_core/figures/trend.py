@@ -10,6 +10,7 @@ from simc_core.figures import palette
 from simc_core.figures.palette import Figure, Trace
 from simc_core.figures.thinned import held, thinned
 from simc_core.identification.trend import Trend
+from simc_core.wording import said
 
 Array = NDArray[np.float64]
 
@@ -57,10 +58,12 @@ def trend_figure(
     extra = {}
     if fitted is not None:
         t, y, residuals = _within(fitted[0], low, end, *fitted[1:])
-        traces.append(palette.line(*thinned(t, y), "model", palette.REDUCED, "dash", 2.0, **hover))
-        traces.append(palette.line(*thinned(t, residuals), "residual", palette.NEUTRAL, width=1, yaxis="y3", **hover))
+        traces.append(palette.line(*thinned(t, y), said("model"), palette.REDUCED, "dash", 2.0, **hover))
+        traces.append(
+            palette.line(*thinned(t, residuals), said("residual"), palette.NEUTRAL, width=1, yaxis="y3", **hover)
+        )
         domains = {"y": [0.5, 1.0], "y2": [0.24, 0.45], "y3": [0.0, 0.19]}
-        extra = {"yaxis3": palette.axis("PV − model", domain=domains["y3"], zeroline=True, nticks=4)}
+        extra = {"yaxis3": palette.axis(said("PV − model"), domain=domains["y3"], zeroline=True, nticks=4)}
     shaded = [palette.stripe(*piece) for piece in bad]
     if part is not None:
         begin, last = whole
@@ -70,9 +73,9 @@ def trend_figure(
     return palette.figure(
         traces,
         palette.axis(palette.TIME, hoverformat=".5g", anchor="y3" if fitted is not None else "y2", **at_most),
-        palette.axis("PV  [unit of y]", domain=domains["y"]),
+        palette.axis(said("PV  [{unit}]", unit=palette.UNIT_OF_Y), domain=domains["y"]),
         height,
-        yaxis2=palette.axis("OP  [unit of u]", domain=domains["y2"], nticks=5),
+        yaxis2=palette.axis(said("OP  [{unit}]", unit=palette.UNIT_OF_U), domain=domains["y2"], nticks=5),
         shapes=[*shaded, *lines],
         **extra,
     )
@@ -106,15 +109,15 @@ def tau_c_figure(
     seen = np.isfinite(high) & (high < 4)
     hover: dict[str, Any] = {"hovertemplate": "%{y:.3f}"}
     traces = [
-        palette.line(tau_c[seen], high[seen], "upper limit", palette.S, "dash", 2.0, **hover),
-        palette.line(tau_c[middle < 4], middle[middle < 4], "median", palette.S, **hover),
-        palette.line(tau_c[[0, -1]], [limit, limit], "limit", palette.NEUTRAL, "dot", 1.4, hoverinfo="skip"),
+        palette.line(tau_c[seen], high[seen], said("upper limit"), palette.S, "dash", 2.0, **hover),
+        palette.line(tau_c[middle < 4], middle[middle < 4], said("median"), palette.S, **hover),
+        palette.line(tau_c[[0, -1]], [limit, limit], said("limit"), palette.NEUTRAL, "dot", 1.4, hoverinfo="skip"),
     ]
     shapes = [_mark(t) for _, t in marked]
     names = [{**palette.label(name, t, 1.0, above=False), "yref": "paper", "xanchor": "left"} for name, t in marked]
     return palette.figure(
         traces,
-        palette.axis("τc  [time unit]", hoverformat=".4g"),
+        palette.axis(said("τc  [{unit}]", unit=palette.TIME_UNIT), hoverformat=".4g"),
         palette.axis("Ms"),
         height,
         shapes=shapes,
@@ -131,9 +134,9 @@ def relay_figure(t: Array, y: Array, u: Array, height: int | None = None) -> Fig
             palette.line(*held(t, u, float(t[-1])), "u", palette.U, width=1.6, yaxis="y2", **hover),
         ],
         palette.axis(palette.TIME, hoverformat=".5g", anchor="y2"),
-        palette.axis("y  [unit of y]", domain=[0.4, 1.0]),
+        palette.axis(palette.OUTPUT, domain=[0.4, 1.0]),
         height,
-        yaxis2=palette.axis("u  [unit of u]", domain=[0.0, 0.32], nticks=4),
+        yaxis2=palette.axis(palette.INPUT, domain=[0.0, 0.32], nticks=4),
     )
 
 

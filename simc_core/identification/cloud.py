@@ -14,6 +14,7 @@ from simc_core.identification.models import as_model
 from simc_core.identification.parameters import natural_values
 from simc_core.identification.uncertainty import Uncertainty, uncertainty_of
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 MEMBERS = 200
 SEED = 20031129  # the same trend gives the same numbers
@@ -100,7 +101,7 @@ def _uncertainties(uncertain: Uncertain) -> tuple[Uncertainty, ...]:
         return known
     if several and len(fitted) == len(several):
         return uncertainty_of(fitted)
-    raise WrongType("identified must be what identify, identify_all or uncertainty_of returns")
+    raise WrongType(said("identified must be what identify, identify_all or uncertainty_of returns"))
 
 
 def _drawn(one: Uncertainty, members: int) -> Cloud:

@@ -10,6 +10,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.identification.cloud import Cloud, Uncertain, clouds
 from simc_core.identification.cloud_peaks import scales
 from simc_core.identification.estimator.held_input import Array
+from simc_core.wording import said
 
 POINTS = 200
 MOST_OMEGA = 2000
@@ -88,7 +89,7 @@ def frequency_band(uncertain: Uncertain, omega: ArrayLike | None = None, probabi
     else:
         grid = checks.array("omega", omega, MOST_OMEGA)
         if grid.size == 0 or not np.all((grid > 0) & np.isfinite(grid)) or np.any(np.diff(grid) <= 0):
-            raise InvalidParameter("omega must be positive and rise")
+            raise InvalidParameter(said("omega must be positive and rise"))
     responses = [cloud.response(grid) for cloud in drawn]
     magnitude = np.concatenate([np.abs(G) for G in responses])
     phase = np.concatenate([_phase(cloud, G, grid) for cloud, G in zip(drawn, responses, strict=True)])

@@ -16,6 +16,7 @@ from simc_core.errors import NotIdentifiable
 from simc_core.identification.moves import Move, find_moves
 from simc_core.identification.trend import Trend, check_trend
 from simc_core.plants.models import FirstOrderDelay
+from simc_core.wording import counted, said
 
 LEAST_SAMPLES = 12  # of the response
 AT_REST = 0.1  # of the response: its last part is taken for the new level
@@ -82,7 +83,7 @@ def by_hand(trend: Trend) -> tuple[ByHand, ...]:
     move, t, y, low = _response(trend)
     high = float(np.mean(y[-max(3, round(AT_REST * y.size)) :]))
     if high == low:
-        raise NotIdentifiable("PV does not answer the move of OP: there is nothing to read off")
+        raise NotIdentifiable(said("PV does not answer the move of OP: there is nothing to read off"))
     z = (y - low) / (high - low)
     k = (high - low) / move.size
     found: list[ByHand] = []
@@ -101,14 +102,21 @@ def _response(trend: Trend) -> tuple[Move, Array, Array, float]:
     """The move with the longest rest after it, time since it, PV, and its level before."""
     moves = find_moves(trend)
     if not moves:
-        raise NotIdentifiable("OP never moves: there is no step to read off")
+        raise NotIdentifiable(said("OP never moves: there is no step to read off"))
     ends = [move.t for move in moves[1:]] + [float(trend.t[-1])]
     rests = [end - move.t for move, end in zip(moves, ends, strict=True)]
     at = int(np.argmax(rests))
     move = moves[at]
     first, last = np.searchsorted(trend.t, move.t, "left"), np.searchsorted(trend.t, ends[at], "left")
     if last - first < LEAST_SAMPLES:
-        raise NotIdentifiable(f"{last - first} samples after the move of OP are too few: at least {LEAST_SAMPLES}")
+        raise NotIdentifiable(
+            counted(
+                "{n} sample after the move of OP is too little: at least {least}",
+                "{n} samples after the move of OP are too few: at least {least}",
+                int(last - first),
+                least=LEAST_SAMPLES,
+            )
+        )
     before = trend.y[max(0, first - BEFORE) : first]
     level = float(before.mean() if before.size else trend.y[first])
     return move, trend.t[first:last] - move.t, trend.y[first:last], level

@@ -20,6 +20,7 @@ from simc_core.identification.models import as_model
 from simc_core.identification.moves import find_moves
 from simc_core.identification.parameters import natural
 from simc_core.identification.trend import MOST_SAMPLES, Trend, check_trend
+from simc_core.wording import counted, said
 
 MOST_TRENDS = 20
 PLAINER = 1.5  # times the noise that a plainer model may leave
@@ -81,7 +82,7 @@ def identify(
     trends = trends_of(trend)
     shape = _structure(structure)
     if sign is not None and checks.whole("sign", sign, -1, 1) == 0:
-        raise InvalidParameter("sign must be 1 or -1, found 0")
+        raise InvalidParameter(said("sign must be 1 or -1, found 0"))
     for one in trends:
         refuse_before(one)
     found = _estimate(trends, shape, drift, between_samples)
@@ -96,16 +97,24 @@ def trends_of(given: Trend | Sequence[Trend]) -> list[Trend]:
         return [given]
     trends = [check_trend(one) for one in checks.items("trend", given, MOST_TRENDS)]
     if not trends:
-        raise InvalidParameter("trend must be a Trend or a list of them, found an empty list")
+        raise InvalidParameter(said("trend must be a Trend or a list of them, found an empty list"))
     size = sum(one.t.size for one in trends)
     if size > MOST_SAMPLES:
-        raise InvalidParameter(f"The trends may have {MOST_SAMPLES} samples together, found {size}")
+        raise InvalidParameter(
+            said("The trends may have {most} samples together, found {size}", most=MOST_SAMPLES, size=size)
+        )
     return trends
 
 
 def _structure(name: str) -> str:
     if name not in STRUCTURES:
-        raise InvalidParameter(f"structure must be one of {', '.join(STRUCTURES)}, found {str(name)[:40]!r}")
+        raise InvalidParameter(
+            said(
+                "structure must be one of {structures}, found {found!r}",
+                structures=", ".join(STRUCTURES),
+                found=str(name)[:40],
+            )
+        )
     return name
 
 
@@ -128,7 +137,14 @@ def _estimate(
     fewest = 2 * (4 + len(shape.lags) + len(shape.gains))
     size = sum(record.t.size for record in records)
     if size < fewest:
-        raise NotIdentifiable(f"{size} samples are too few for this structure: it needs at least {fewest}")
+        raise NotIdentifiable(
+            counted(
+                "{n} sample is too little for this structure: it needs at least {fewest}",
+                "{n} samples are too few for this structure: it needs at least {fewest}",
+                size,
+                fewest=fewest,
+            )
+        )
     return estimate(shape, records, _floor(trends), resolution_of(trends), drift, start)
 
 
@@ -180,8 +196,11 @@ def _told(trends: list[Trend], found: Estimate, sign: int | None) -> Identified:
     _refuse_weak(trends, found)
     if sign is not None and parameters[first] * sign <= 0:
         raise NotIdentifiable(
-            f"The gain is {parameters[first]:.3g}, against the sign given: PV was moved by something else, or the loop "
-            "was closed and not excited."
+            said(
+                "The gain is {gain:.3g}, against the sign given: PV was moved by something else, or the loop was "
+                "closed and not excited.",
+                gain=parameters[first],
+            )
         )
     width = found.half_width
     plant, model = as_model(problem.structure.key, parameters)
@@ -219,8 +238,8 @@ def _refuse_weak(trends: list[Trend], found: Estimate) -> None:
     try:
         refuse_weak(found)
     except NotIdentifiable:
-        for said in disagree(_gains(trends, found)):
-            raise NotIdentifiable(said) from None
+        for reason in disagree(_gains(trends, found)):
+            raise NotIdentifiable(reason) from None
         raise
 
 
@@ -232,8 +251,10 @@ def _follows(trends: list[Trend], parameters: Mapping[str, float], bias: Array) 
         if abs(level - one.u[0]) > ON_SETPOINT * float(np.ptp(one.u)):
             return []
     return [
-        "PV comes to rest on the very values taken for OP: are they the set point? Then this is the model of a closed "
-        "loop, not of the process, and no settings follow from it."
+        said(
+            "PV comes to rest on the very values taken for OP: are they the set point? Then this is the model of a "
+            "closed loop, not of the process, and no settings follow from it."
+        )
     ]
 
 

@@ -10,6 +10,7 @@ from simc_core.identification.identified import Identified
 from simc_core.identification.identify import identify, trends_of
 from simc_core.identification.moves import find_moves
 from simc_core.identification.trend import Trend
+from simc_core.wording import said
 
 MOST = 20  # moves that are looked at
 SAME = 0.1  # share of the range of OP within which moves are at one operating point
@@ -83,7 +84,9 @@ def operating_points(trend: Trend | Sequence[Trend], structure: str = "FOPDT") -
     trends = trends_of(trend)
     windows = [window for one in trends for window in _windows(one)]
     if not windows:
-        raise NotIdentifiable("No move of OP with an answer of PV is there: a gain schedule is made of steps of OP.")
+        raise NotIdentifiable(
+            said("No move of OP with an answer of PV is there: a gain schedule is made of steps of OP.")
+        )
     low = min(window.trend.u.min() for window in windows)
     high = max(window.trend.u.max() for window in windows)
     found: list[OperatingPoint] = []
@@ -97,7 +100,7 @@ def operating_points(trend: Trend | Sequence[Trend], structure: str = "FOPDT") -
         middle = float(np.mean([window.OP for window in group]))
         found.append(OperatingPoint(middle, float(np.mean([window.PV for window in group])), len(group), identified))
     if not found:
-        raise reason or NotIdentifiable("No move of OP tells a model.")
+        raise reason or NotIdentifiable(said("No move of OP tells a model."))
     return tuple(found)
 
 

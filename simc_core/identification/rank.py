@@ -18,6 +18,7 @@ from simc_core.identification.identify import identify, resolution_of, response_
 from simc_core.identification.trend import Trend
 from simc_core.identification.uncertainty import NEAR
 from simc_core.rules.simc import simc
+from simc_core.wording import Text, said
 
 USUAL = ("FOPDT", "SOPDT", "IPDT", "IPDT_lag")
 MARGIN = 2.0  # of the criterion, for each parameter
@@ -25,7 +26,7 @@ BELIEVED = 1e-3  # of the response: a structure gains nothing by fitting better
 REST = 10  # samples before the first move from which a drift can be seen
 SURE = 4.0  # standard errors of it
 UNLIKELY = 10.0  # of the criterion, behind the best self-regulating structure
-UNSEEN = (
+UNSEEN = said(
     "The drift of this model is not seen before OP moves: PV has not settled rather than integrates. Do not tune on it."
 )
 
@@ -77,7 +78,7 @@ def identify_all(
     trends = trends_of(trend)
     keys = checks.items("structures", structures, 8)
     if not keys:
-        raise InvalidParameter("structures must name at least one, found none")
+        raise InvalidParameter(said("structures must name at least one, found none"))
     found: list[Identified] = []
     reasons: list[NotIdentifiable] = []
     for i, key in enumerate(keys):
@@ -130,26 +131,34 @@ def _doubted(one: Identified, trends: list[Trend], floor: float) -> Identified:
     return one
 
 
-def _nearly(placed: list[Identified]) -> list[str]:
+def _nearly(placed: list[Identified]) -> list[Text]:
     """What the structures that fit nearly as well would change."""
-    said = []
-    for other in placed[1:]:
-        if other.criterion <= NEAR:
-            likely = 100 / (1 + exp(other.criterion / 2))
-            odds = f"{likely:.0f} to {100 - likely:.0f} %"
-            title = other.estimate.fit.problem.structure.title
-            said.append(f"A model {title} fits nearly as well ({odds}){_change(placed[0], other)}.")
-    return said
+    return [_as_well(placed[0], other) for other in placed[1:] if other.criterion <= NEAR]
 
 
-def _change(best: Identified, other: Identified) -> str:
+def _as_well(best: Identified, other: Identified) -> Text:
+    likely = 100 / (1 + exp(other.criterion / 2))
+    title = other.estimate.fit.problem.structure.title
+    plain = said(
+        "A model {title} fits nearly as well ({likely:.0f} to {best:.0f} %).",
+        title=title,
+        likely=likely,
+        best=100 - likely,
+    )
     try:
         ours, theirs = simc(best.model), simc(other.model)
     except SimcError:
-        return ""
+        return plain
     if isinstance(ours, IController) or isinstance(theirs, IController):
-        return ""
-    return (
-        f"; SIMC with tau_c = theta would set Kc {theirs.Kc:.3g} and tau_I {theirs.tau_I:.3g} instead of "
-        f"{ours.Kc:.3g} and {ours.tau_I:.3g}"
+        return plain
+    return said(
+        "A model {title} fits nearly as well ({likely:.0f} to {best:.0f} %); SIMC with tau_c = theta would set "
+        "Kc {Kc:.3g} and tau_I {tau_I:.3g} instead of {our_Kc:.3g} and {our_tau_I:.3g}.",
+        title=title,
+        likely=likely,
+        best=100 - likely,
+        Kc=theirs.Kc,
+        tau_I=theirs.tau_I,
+        our_Kc=ours.Kc,
+        our_tau_I=ours.tau_I,
     )

@@ -14,6 +14,7 @@ from simc_core.identification.cloud_peaks import grid, peaks
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.identified import Identified
 from simc_core.rules.simc import simc
+from simc_core.wording import said
 
 LONGEST = 10.0  # times theta, up to which tau_c is tried
 STEPS = 20
@@ -165,8 +166,13 @@ def smallest_tau_c(
     first = next((i for i, tau_c in enumerate(tried) if passed(tau_c)), None)
     if first is None:
         raise NotIdentifiable(
-            f"No tau_c up to {tried[-1]:.3g} keeps Ms <= {Ms:g} with {100 * probability:g} %: the trend says too "
-            "little to tune on. Repeat the test with a larger step, or two."
+            said(
+                "No tau_c up to {tau_c:.3g} keeps Ms <= {Ms:g} with {probability:g} %: the trend says too little to "
+                "tune on. Repeat the test with a larger step, or two.",
+                tau_c=tried[-1],
+                Ms=Ms,
+                probability=100 * probability,
+            )
         )
     if first == 0:
         return float(tried[0])

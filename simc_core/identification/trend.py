@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from simc_core import checks
 from simc_core.errors import InvalidParameter, WrongType
+from simc_core.wording import said
 
 MOST_SAMPLES = 1_000_000  # of a trend; what is written every second for eleven days
 LARGEST_INSTANT = 1e14  # holds a date in milliseconds or microseconds since 1970 times a few
@@ -61,7 +62,7 @@ class Trend:
     def __post_init__(self) -> None:
         t = _instants("t", self.t, least=3)
         if t[-1] <= t[0]:
-            raise InvalidParameter(f"t must cover some time, found {t[0]:g} throughout")
+            raise InvalidParameter(said("t must cover some time, found {t:g} throughout", t=float(t[0])))
         checks.real("t[-1] - t[0]", float(t[-1] - t[0]), 1 / checks.LONGEST_TIME, checks.LONGEST_TIME)
         held = None if self.t_u is None else _instants("t_u", self.t_u, least=1)
         own = t if held is None else held
@@ -73,7 +74,9 @@ class Trend:
             "t_u": held,
             "names": _labels("names", self.names),
             "units": _labels("units", self.units),
-            "notes": tuple(str(note) for note in checks.items("notes", self.notes, 1000)),
+            "notes": tuple(
+                note if isinstance(note, str) else str(note) for note in checks.items("notes", self.notes, 1000)
+            ),
         }
         for name, value in found.items():
             object.__setattr__(self, name, value)
@@ -97,7 +100,7 @@ class Trend:
         end = checks.real("end", end, begin, LARGEST_INSTANT)
         first, last = np.searchsorted(self.t, begin, "left"), np.searchsorted(self.t, end, "right")
         if last - first < 3:
-            raise InvalidParameter(f"begin and end must leave at least 3 samples, {last - first} remain")
+            raise InvalidParameter(said("begin and end must leave at least 3 samples, {n} remain", n=int(last - first)))
         cut = slice(int(first), int(last))
         at = self.instants_of_u
         start = max(int(np.searchsorted(at, begin, "right")) - 1, 0)
@@ -114,7 +117,7 @@ class Trend:
         end = checks.real("end", end, begin, LARGEST_INSTANT)
         kept = (self.t < begin) | (self.t > end)
         if np.count_nonzero(kept) < 3:
-            raise InvalidParameter(f"At least 3 samples must remain, found {np.count_nonzero(kept)}")
+            raise InvalidParameter(said("At least 3 samples must remain, found {n}", n=int(np.count_nonzero(kept))))
         r = None if self.r is None else self.r[kept]
         return self._with(self.t[kept], self.y[kept], self.u, r, self.instants_of_u)
 
@@ -127,20 +130,28 @@ class Trend:
 def check_trend(trend: object) -> Trend:
     """`trend`, which must be a Trend. Raises WrongType."""
     if not isinstance(trend, Trend):
-        raise WrongType(f"trend must be a Trend, found {type(trend).__name__}")
+        raise WrongType(said("trend must be a Trend, found {found}", found=type(trend).__name__))
     return trend
 
 
 def _instants(name: str, values: ArrayLike, least: int) -> NDArray[np.float64]:
     found = _numbers(name, values)
     if found.size < least:
-        raise InvalidParameter(f"{name} must have at least {least} instants, found {found.size}")
+        raise InvalidParameter(
+            said("{name} must have at least {least} instants, found {n}", name=name, least=least, n=found.size)
+        )
     back = np.flatnonzero(np.diff(found) < 0)
     if back.size:
         i = int(back[0])
         raise InvalidParameter(
-            f"{name} must not go backwards: {name}[{i + 1}] = {found[i + 1]:.12g} follows {found[i]:.12g}. "
-            "Sort the samples first."
+            said(
+                "{name} must not go backwards: {name}[{i}] = {value:.12g} follows {before:.12g}. Sort the samples "
+                "first.",
+                name=name,
+                i=i + 1,
+                value=float(found[i + 1]),
+                before=float(found[i]),
+            )
         )
     return found
 
@@ -148,7 +159,15 @@ def _instants(name: str, values: ArrayLike, least: int) -> NDArray[np.float64]:
 def _series(name: str, values: ArrayLike, size: int, instants: str) -> NDArray[np.float64]:
     found = _numbers(name, values)
     if found.size != size:
-        raise InvalidParameter(f"{name} must have the length of {instants}, {size}, found {found.size}")
+        raise InvalidParameter(
+            said(
+                "{name} must have the length of {instants}, {size}, found {found}",
+                name=name,
+                instants=instants,
+                size=size,
+                found=found.size,
+            )
+        )
     return found
 
 
@@ -158,15 +177,37 @@ def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     bad = np.flatnonzero(~(np.abs(found) <= largest))  # nan too
     if bad.size:
         i = int(bad[0])
-        raise InvalidParameter(f"{name} must hold numbers within +-{largest:g}, found {name}[{i}] = {found[i]:g}")
+        raise InvalidParameter(
+            said(
+                "{name} must hold numbers within +-{largest:g}, found {name}[{i}] = {found:g}",
+                name=name,
+                largest=largest,
+                i=i,
+                found=float(found[i]),
+            )
+        )
     found.setflags(write=False)
     return found
 
 
 def _labels(name: str, given: Mapping[str, str]) -> dict[str, str]:
     if not isinstance(given, Mapping):
-        raise WrongType(f"{name} must be a mapping from {', '.join(SERIES)} to text, found {type(given).__name__}")
+        raise WrongType(
+            said(
+                "{name} must be a mapping from {series} to text, found {found}",
+                name=name,
+                series=", ".join(SERIES),
+                found=type(given).__name__,
+            )
+        )
     unknown = [key for key in given if key not in SERIES]
     if unknown:
-        raise InvalidParameter(f"{name} may have the keys {', '.join(SERIES)}, found {str(unknown[0])[:40]!r}")
+        raise InvalidParameter(
+            said(
+                "{name} may have the keys {keys}, found {found!r}",
+                name=name,
+                keys=", ".join(SERIES),
+                found=str(unknown[0])[:40],
+            )
+        )
     return {key: str(value) for key, value in given.items()}

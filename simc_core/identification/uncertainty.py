@@ -11,6 +11,7 @@ from simc_core.errors import InvalidParameter, WrongType
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.estimator.structures import STRUCTURES
 from simc_core.identification.identified import Identified
+from simc_core.wording import said
 
 NEAR = 6.0  # of the criterion within which a structure fits nearly as well, and is part of what is not known
 LARGEST = 1e12  # size of a number of them
@@ -55,17 +56,34 @@ class Uncertainty:
     def __post_init__(self) -> None:
         if self.structure not in STRUCTURES:
             raise InvalidParameter(
-                f"structure must be one of {', '.join(STRUCTURES)}, found {str(self.structure)[:40]!r}"
+                said(
+                    "structure must be one of {structures}, found {found!r}",
+                    structures=", ".join(STRUCTURES),
+                    found=str(self.structure)[:40],
+                )
             )
         m = 1 + len(STRUCTURES[self.structure].lags) + len(STRUCTURES[self.structure].gains)
         for name, wanted in (("values", m), ("covariance", m * (m + 1) // 2)):
             given = checks.items(name, getattr(self, name), 100)
             if len(given) != wanted:
-                raise InvalidParameter(f"{name} of {self.structure} must have {wanted} numbers, found {len(given)}")
+                raise InvalidParameter(
+                    said(
+                        "{name} of {structure} must have {wanted} numbers, found {found}",
+                        name=name,
+                        structure=self.structure,
+                        wanted=wanted,
+                        found=len(given),
+                    )
+                )
             kept = tuple(checks.real(name, each, -LARGEST, LARGEST) for each in given)
             object.__setattr__(self, name, kept)
         if any(each < 0 for each in np.diag(self.matrix)):
-            raise InvalidParameter(f"covariance must not have a negative variance, found {min(np.diag(self.matrix)):g}")
+            raise InvalidParameter(
+                said(
+                    "covariance must not have a negative variance, found {found:g}",
+                    found=float(min(np.diag(self.matrix))),
+                )
+            )
         freedom = checks.real("freedom", self.freedom, LEAST_FREEDOM, LARGEST)
         object.__setattr__(self, "freedom", freedom)
 
@@ -116,7 +134,7 @@ def uncertainty_of(identified: Identified | Sequence[Identified]) -> tuple[Uncer
     """
     several = [identified] if isinstance(identified, Identified) else list(identified)
     if not several or not all(isinstance(one, Identified) for one in several):
-        raise WrongType("identified must be what identify or identify_all returns")
+        raise WrongType(said("identified must be what identify or identify_all returns"))
     return tuple(
         Uncertainty(
             one.structure,

@@ -49,7 +49,16 @@ def test_sources_of_lessons_of_the_list_do_not_mix(monkeypatch):
 
 @pytest.mark.parametrize(
     ("lesson", "step"),
-    [*(("V1", step) for step in range(2, 8)), ("I3", 2), ("N1", 3), ("N5", 3), ("P01a", 3), ("P01a", 5), ("V2", 3)],
+    [
+        *(("V1", step) for step in range(2, 8)),
+        ("I3", 2),
+        ("N1", 3),
+        ("N5", 3),
+        ("P01a", 3),
+        ("P01a", 5),
+        ("V2", 3),
+        ("N2", 3),
+    ],
 )
 def test_no_step_of_a_lesson_mixes(lesson, step, monkeypatch):
     speak_brackets(monkeypatch)

@@ -12,6 +12,7 @@ from pages.common.session import state
 from pages.common.take_home.written import LANGUAGES
 from pages.common.words import catalogues
 from simc_core import BOXES
+from simc_core.many.columns import COLUMNS
 from simc_core.published.sources import SOURCES
 from simc_core.wording import Text
 
@@ -26,7 +27,11 @@ NOT_SEEN = {  # fields of Streamlit's messages that hold names, addresses and co
     *("mime_type"),
 }
 FOREIGN = {"text", "mine", "known", "file"}
-FORMULAS = {"2.2 exp(-20s)/(180s+1)"}  # as code, which every language writes with points
+HEADINGS = {column.name for column in COLUMNS}  # of lists of loops, as they stand in files
+FORMULAS = {  # as code, and typed numbers, which every language writes with points
+    "2.2 exp(-20s)/(180s+1)",
+    "Time\tPV\tOP\n0\t20.5\t40\n1\t20.5\t45",
+}
 IN_FIGURES = {"text", "title", "name", "hovertemplate", "customdata"}
 MARKUP = re.compile(
     r"(?P<code>(?P<fence>`+).*?(?<!`)(?P=fence)(?!`))|\$\$.*?\$\$|\$[^$]*\$|%\{[^{}]*\}|<style>.*?</style>|</?[a-zA-Z][^<>]*>|:material/\w+:|:\w+\["
@@ -111,7 +116,7 @@ def left_in_english(app: AppTest) -> list[str]:
     """What the page shows outside brackets, but for symbols, numbers, foreign text, formulas, names of languages."""
     found = []
     for place, text in visible(app):
-        known = text in FORMULAS or text in catalogues.OFFERED.values() or NAME_OF_LOOP.fullmatch(text)
+        known = text in FORMULAS | HEADINGS or text in catalogues.OFFERED.values() or NAME_OF_LOOP.fullmatch(text)
         bare = "" if known else outside(text)
         if any(word not in SYMBOLS for word in WORD.findall(bare)) or re.search(r"\d\.\d", bare):
             found.append(f"{place}: {text}")
@@ -188,9 +193,11 @@ def _of_figure(node, name: str = "") -> Iterator[tuple[str, str]]:
 
 
 def _of_table(table: pd.DataFrame, columns: str) -> Iterator[tuple[str, str]]:
-    labels = {name: column.get("label") for name, column in json.loads(columns or "{}").items()}
+    settings = json.loads(columns or "{}")
     for name in table.columns:
-        yield "column", labels.get(name) or str(name)
-        for cell in table[name]:
+        setting = settings.get(name, {})
+        yield "column", setting.get("label") or str(name)
+        shown = {one["value"]: one["label"] for one in setting.get("type_config", {}).get("options", ())}
+        for cell in [*shown, *table[name]]:
             if isinstance(cell, str):
-                yield f"cell of {name}", cell
+                yield f"cell of {name}", shown.get(cell, cell)

@@ -8,20 +8,26 @@ from pages.common.from_data import figure
 from pages.common.from_data.send import plain_unit, send
 from pages.common.from_data.work import Fits, Work, kept, nearly
 from pages.common.parts.symbols import sentence
-from simc_core import AutoTuned, Identified, Trend, auto_tune, frequency_band
+from pages.common.words import number, translated, words
+from simc_core import AutoTuned, FrequencyBand, Identified, Trend, auto_tune, frequency_band
 from simc_core.figures.uncertain import band_bode_figure
-from simc_core.notation import number
+from simc_core.wording import said
 
 KINDS = ("PI", "PID")
-PURPOSES = {"load": "Load", "setpoint": "Set point"}
+NAMES = {
+    ("load", "damped"): said("Load, damped"),
+    ("load", "fast"): said("Load, fast"),
+    ("setpoint", "damped"): said("Set point, damped"),
+    ("setpoint", "fast"): said("Set point, fast"),
+}
 HEIGHT = 330  # px
 
 
 def show(work: Work, trend: Trend, fits: Fits, model: Identified) -> None:
     """Four settings with what they cost, one of which is taken; the response they rest on."""
     several = nearly(fits, model)
-    kind = st.segmented_control("Controller", KINDS, default=KINDS[0], required=True, key="auto_kind")
-    with st.spinner("Trying settings"):
+    kind = st.segmented_control(words("Controller"), KINDS, default=KINDS[0], required=True, key="auto_kind")
+    with st.spinner(words("Trying settings")):
         found, why = kept(fits, (model.structure, "auto", kind), lambda: auto_tune(several, kind))
     if found is None:
         st.warning(sentence(why))
@@ -31,53 +37,70 @@ def show(work: Work, trend: Trend, fits: Fits, model: Identified) -> None:
     if band is None:
         st.caption(sentence(why))
         return
-    alt = "Frequency response of the process with its 95 % band"
+    alt = words("Frequency response of the process with its 95 % band")
     figure.show(band_bode_figure(band, HEIGHT), trend, "figure_band", "frequency response", alt)
+    st.caption(words("Shaded: 95 % for all that the record leaves open.") + _crossing(band, trend))
+
+
+def _crossing(band: FrequencyBand, trend: Trend) -> str:
+    """Where the phase passes -180 degrees, where that is known."""
     nominal, low, high = band.omega_180
-    said = ""
-    if nominal == nominal and low == low:
-        said = f" The phase passes −180° at {number(nominal)} ({number(low)} to {number(high)}) {_rate(trend)}."
-    st.caption(f"Shaded: 95 % for all that the record leaves open.{said}")
+    if not (nominal == nominal and low == low):
+        return ""
+    unit = plain_unit(trend)
+    passes = words(
+        "The phase passes −180° at {nominal} ({low} to {high}) {unit}.",
+        nominal=number(nominal),
+        low=number(low),
+        high=number(high),
+        unit=f"rad/{unit}" if unit else words("rad per time unit"),
+    )
+    return f" {passes}"
 
 
 def _offer(work: Work, trend: Trend, fits: Fits, model: Identified, found: tuple[AutoTuned, ...]) -> None:
     st.dataframe([_row(each, trend) for each in found], hide_index=True, width="stretch", height="content")
     st.caption(
-        "Ms 95 %: not passed with 95 % for all that the record leaves open; its limit is 1.4 for damped and 2 for fast "
-        "settings. IAE, overshoot and TV: unit steps on the model."
+        words(
+            "Ms 95 %: not passed with 95 % for all that the record leaves open; its limit is 1.4 for damped and 2 for "
+            "fast settings. IAE, overshoot and TV: unit steps on the model."
+        )
     )
     if any(each.balanced for each in found):
-        st.caption("For the set point alone an integrating process needs no integral action; the load counts as much.")
+        st.caption(
+            words("For the set point alone an integrating process needs no integral action; the load counts as much.")
+        )
     if len(found) < 4:
-        st.caption("Settings that would pass their limit whatever the gain are left out: the record says too little.")
-    names = {_name(each): each for each in found}
+        st.caption(
+            words("Settings that would pass their limit whatever the gain are left out: the record says too little.")
+        )
+    by_name = {_name(each): each for each in found}
     with st.container(key="send_auto", horizontal=True, gap="small", vertical_alignment="bottom"):
-        chosen = st.selectbox("Settings", list(names), key="auto_chosen")
-        if st.button("Take them to the tuning page", type="primary", key="tune_auto"):
-            send(work, trend, model, fits, own=names[chosen].controller)
+        chosen = st.selectbox(words("Settings"), list(by_name), format_func=translated, key="auto_chosen")
+        if st.button(words("Take them to the tuning page"), type="primary", key="tune_auto"):
+            send(work, trend, model, fits, own=by_name[chosen].controller)
 
 
 def _name(each: AutoTuned) -> str:
-    return f"{PURPOSES[each.purpose]}, {each.character}"
+    return NAMES[each.purpose, each.character]
 
 
 def _row(each: AutoTuned, trend: Trend) -> dict[str, Any]:
     unit = plain_unit(trend)
     time = f" [{unit}]" if unit else ""
     controller, setpoint, load = each.controller, each.performance.setpoint, each.performance.disturbance
-    row = {"for": _name(each), "Kc": number(controller.Kc), f"τI{time}": number(controller.tau_I)}
+    row = {
+        words("for", context="settings"): translated(_name(each)),
+        "Kc": number(controller.Kc),
+        f"τI{time}": number(controller.tau_I),
+    }
     if controller.tau_D:
         row |= {f"τD{time}": number(controller.tau_D), f"τF{time}": number(controller.tau_F)}
     return row | {
         "Ms": number(each.Ms, 3),
         "Ms 95 %": number(each.Ms_high, 3),
-        "IAE load": number(load.IAE, 3),
-        "IAE set point": number(setpoint.IAE, 3),
-        "overshoot": f"{100 * setpoint.overshoot:.0f} %",
+        words("IAE load"): number(load.IAE, 3),
+        words("IAE set point"): number(setpoint.IAE, 3),
+        words("overshoot"): words("{share:.0f} %", share=100 * setpoint.overshoot),
         "TV": number(setpoint.TV, 3),
     }
-
-
-def _rate(trend: Trend) -> str:
-    unit = plain_unit(trend)
-    return f"rad/{unit}" if unit else "rad per time unit"

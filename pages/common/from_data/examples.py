@@ -10,6 +10,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from simc_core.wording import Numeral, said
+
 Array = NDArray[np.float64]
 Control = Callable[[int, float], float]
 
@@ -136,26 +138,41 @@ def _day() -> str:
 
 EXAMPLES: dict[str, Example] = {
     "step": Example(
-        "Step test, up and down", "A heater, a sample a second.", "k = 1.5 °C/%, θ = 12 s, τ₁ = 60 s", _step
+        said("Step test, up and down"),
+        said("A heater, a sample a second."),
+        Numeral("k = 1.5 °C/%, θ = 12 s, τ₁ = 60 s"),
+        _step,
     ),
     "noisy": Example(
-        "Noisy measurement", "Noise of a tenth of the response.", "k = 0.8 °C/%, θ = 20 s, τ₁ = 45 s", _noisy
+        said("Noisy measurement"),
+        said("Noise of a tenth of the response."),
+        Numeral("k = 0.8 °C/%, θ = 20 s, τ₁ = 45 s"),
+        _noisy,
     ),
-    "integrating": Example("Level that integrates", "Up, down and back.", "k' = 0.002 1/s, θ = 16 s", _integrating),
+    "integrating": Example(
+        said("Level that integrates"), said("Up, down and back."), Numeral("k' = 0.002 1/s, θ = 16 s"), _integrating
+    ),
     "closed_loop": Example(
-        "Closed loop, set point moved",
-        "PI control, SP is there too.",
-        "k = 1.5 °C/%, θ = 10 s, τ₁ = 40 s",
+        said("Closed loop, set point moved"),
+        said("PI control, SP is there too."),
+        Numeral("k = 1.5 °C/%, θ = 10 s, τ₁ = 40 s"),
         _closed_loop,
     ),
-    "relay": Example("Relay test", "OP switches between 46 and 56 %.", "k = 1.2 °C/%, θ = 15 s, τ₁ = 80 s", _relay),
+    "relay": Example(
+        said("Relay test"),
+        said("OP switches between 46 and 56 %."),
+        Numeral("k = 1.2 °C/%, θ = 15 s, τ₁ = 80 s"),
+        _relay,
+    ),
     "sticking": Example(
-        "Valve that sticks",
-        "The stem follows OP with 1 % of play.",
-        "k = 2, θ = 10 s, τ₁ = 35 s behind the play",
+        said("Valve that sticks"),
+        said("The stem follows OP with 1 % of play."),
+        said("k = 2, θ = 10 s, τ₁ = 35 s behind the play"),
         _sticking,
     ),
-    "day": Example("A day at one second", "86 400 samples.", "k = 1.2 °C/%, θ = 90 s, τ₁ = 700 s", _day),
+    "day": Example(
+        said("A day at one second"), said("86 400 samples."), Numeral("k = 1.2 °C/%, θ = 90 s, τ₁ = 700 s"), _day
+    ),
 }
 
 

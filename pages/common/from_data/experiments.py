@@ -12,27 +12,30 @@ from pages.common.parts.units import time_text, unit_of
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.shell import header
+from pages.common.words import number, translated, typeset, words
 from simc_core import Plant, SeriesPid, SimcError, checks, relay_test, retune_oscillation, setpoint_overshoot
 from simc_core.figures.trend import relay_figure
-from simc_core.notation import latex, number
+from simc_core.notation import latex
+from simc_core.wording import Text, renamed, said
 
 OVERSHOOT = {  # field: label, check, unit
-    "Kc0": ("Gain of the P controller", checks.gain, "OP/PV"),
-    "setpoint": ("Step of the set point", checks.gain, "PV"),
-    "peak": ("Change of PV at its first peak", checks.gain, "PV"),
-    "lowest": ("Change of PV at the next minimum", checks.gain, "PV"),
-    "peak_time": ("Time from the step to the peak", checks.positive_time, "time"),
+    "Kc0": (said("Gain of the P controller"), checks.gain, "OP/PV"),
+    "setpoint": (said("Step of the set point"), checks.gain, "PV"),
+    "peak": (said("Change of PV at its first peak"), checks.gain, "PV"),
+    "lowest": (said("Change of PV at the next minimum"), checks.gain, "PV"),
+    "peak_time": (said("Time from the step to the peak"), checks.positive_time, "time"),
 }
 OSCILLATION = {
-    "Kc": ("Kc now", checks.gain, "OP/PV"),
-    "tau_I": ("τI now", checks.positive_time, "time"),
-    "period": ("Period of the oscillation", checks.positive_time, "time"),
-    "theta": ("Dead time θ, if known", checks.positive_time, "time"),
+    "Kc": (said("Kc now"), checks.gain, "OP/PV"),
+    "tau_I": (said("τI now"), checks.positive_time, "time"),
+    "period": (said("Period of the oscillation"), checks.positive_time, "time"),
+    "theta": (said("Dead time θ, if known"), checks.positive_time, "time"),
 }
 RELAY = {
-    "amplitude": ("OP up and down by", checks.gain, "OP"),
-    "hysteresis": ("Hysteresis of PV", lambda name, value: checks.real(name, value, 0.0), "PV"),
+    "amplitude": (said("OP up and down by"), checks.gain, "OP"),
+    "hysteresis": (said("Hysteresis of PV"), lambda name, value: checks.real(name, value, 0.0), "PV"),
 }
+TITLES = [said("Set-point overshoot"), said("Loop that oscillates"), said("Relay test")]
 HEIGHT = 300  # px
 Fields = dict[str, tuple[str, Callable[[str, float], float], str]]
 
@@ -40,13 +43,12 @@ Fields = dict[str, tuple[str, Callable[[str, float], float], str]]
 def show(design: Design) -> None:
     """One of the forms; none at first."""
     st.divider()
-    titles = ["Set-point overshoot", "Loop that oscillates", "Relay test"]
-    chosen = st.segmented_control("Another experiment", titles, key="experiment")
-    if chosen == titles[0]:
+    chosen = st.segmented_control(words("Another experiment"), TITLES, format_func=translated, key="experiment")
+    if chosen == TITLES[0]:
         _overshoot(design)
-    elif chosen == titles[1]:
+    elif chosen == TITLES[1]:
         _oscillation(design)
-    elif chosen == titles[2]:
+    elif chosen == TITLES[2]:
         _relay(design)
 
 
@@ -55,10 +57,11 @@ def _numbers(form: str, fields: Fields, design: Design, optional: tuple[str, ...
     given: dict[str, float | None] = state.lasting(f"experiment_{form}", dict)
     places = st.columns(len(fields), gap="small", vertical_alignment="bottom")
     for place, (name, (label, check, unit)) in zip(places, fields.items(), strict=True):
+        called = translated(label)
         number_field(
-            label,
+            called,
             given.get(name),
-            lambda value, label=label, check=check: None if value is None else check(label, value),
+            lambda value, called=called, check=check: None if value is None else check(called, value),
             lambda value, name=name: given.__setitem__(name, value),
             f"experiment_{form}_{name}",
             unit=unit_of(unit, design.sheet),
@@ -67,9 +70,11 @@ def _numbers(form: str, fields: Fields, design: Design, optional: tuple[str, ...
             under=st.container(),
         )
     found = {name: value for name, value in given.items() if value is not None}
-    missing = [label for name, (label, _, _) in fields.items() if name not in found and name not in optional]
+    missing = [
+        translated(label) for name, (label, _, _) in fields.items() if name not in found and name not in optional
+    ]
     if missing:
-        st.caption(f"Still needed: {', '.join(missing)}.")
+        st.caption(words("Still needed: {fields}.", fields=", ".join(missing)))
         return {}
     return found
 
@@ -77,7 +82,11 @@ def _numbers(form: str, fields: Fields, design: Design, optional: tuple[str, ...
 def _overshoot(design: Design) -> None:
     """[SS10]: with the loop under P control, one step of the set point with about 30 % overshoot."""
     st.caption(
-        linked("Put the controller to P, make a step of the set point with about 30 % overshoot, and read off [SS10]:")
+        linked(
+            words(
+                "Put the controller to P, make a step of the set point with about 30 % overshoot, and read off [SS10]:"
+            )
+        )
     )
     given = _numbers("overshoot", OVERSHOOT, design)
     if not given:
@@ -88,11 +97,17 @@ def _overshoot(design: Design) -> None:
         st.error(sentence(_named(error, OVERSHOOT)))
         return
     plant = found.model.plant
-    st.markdown(f"Overshoot {100 * found.overshoot:.3g} %. $\\displaystyle G(s) = {latex(plant)}$")
+    st.markdown(
+        words(
+            "Overshoot {share:.3g} %. {plant}",
+            share=100 * found.overshoot,
+            plant=f"$\\displaystyle G(s) = {typeset(latex(plant))}$",
+        )
+    )
     _settings(found.controller.Kc, found.controller.tau_I, design)
     for line in found.advice:
         st.warning(sentence(line))
-    if st.button("Tune this model", key="tune_overshoot"):
+    if st.button(words("Tune this model"), key="tune_overshoot"):
         _begin(plant, design)
 
 
@@ -114,7 +129,7 @@ def _oscillation(design: Design) -> None:
 
 def _relay(design: Design) -> None:
     """The present plant under a relay, exactly; what the describing function makes of it."""
-    st.caption("The present plant under a relay, simulated with its dead time exact.")
+    st.caption(words("The present plant under a relay, simulated with its dead time exact."))
     given = _numbers("relay", RELAY, design, optional=("hysteresis",))
     if not given:
         return
@@ -124,19 +139,16 @@ def _relay(design: Design) -> None:
         st.error(sentence(_named(error, RELAY)))
         return
     figure = relay_figure(found.t, found.y, found.u, HEIGHT)
-    alt = "Relay test: y oscillates, u switches between two levels"
+    alt = words("Relay test: y oscillates, u switches between two levels")
     panel.show(figure, "relay", alt)
-    rows = [
-        {"quantity": "Ku", "describing function": number(found.Ku), "exact": number(found.Ku_exact)},
-        {
-            "quantity": "Pu",
-            "describing function": time_text(found.Pu, design.sheet),
-            "exact": time_text(found.Pu_exact, design.sheet),
-        },
+    columns = [
+        (words("quantity"), "Ku", "Pu"),
+        (words("describing function"), number(found.Ku), time_text(found.Pu, design.sheet)),
+        (words("exact"), number(found.Ku_exact), time_text(found.Pu_exact, design.sheet)),
     ]
-    st.dataframe(rows, hide_index=True, width="content")
+    st.dataframe({name: cells for name, *cells in columns}, hide_index=True, width="content")
     if found.model is not None:
-        st.markdown(f"Fitted to this record: $\\displaystyle {latex(found.model)}$")
+        st.markdown(words("Fitted to this record: {model}", model=f"$\\displaystyle {typeset(latex(found.model))}$"))
 
 
 def _settings(Kc: float, tau_I: float, design: Design) -> None:
@@ -154,6 +166,6 @@ def _begin(plant: Plant, design: Design) -> None:
 def _named(error: SimcError, fields: Fields) -> str:
     """What the core refuses, with the fields called as on the page."""
     text = str(error)
-    for name, (label, _, _) in fields.items():
-        text = label + text.removeprefix(name) if text.startswith(f"{name} ") else text
+    if isinstance(text, Text):
+        return symbols(renamed(text, {name: label for name, (label, _, _) in fields.items()}))
     return symbols(text)

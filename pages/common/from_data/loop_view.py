@@ -9,6 +9,7 @@ from pages.common.from_data.work import Work
 from pages.common.parts.foreign_text import told
 from pages.common.parts.number_field import number_field
 from pages.common.session import state
+from pages.common.words import words
 from simc_core import IdealPid, SimcError, checks
 
 FIELDS = {"Kc": "Kc", "tau_I": "τI", "tau_D": "τD", "tau_F": "τF"}
@@ -19,7 +20,7 @@ def known_controller(work: Work) -> None:
     """Fields for the controller, where OP can be computed from it."""
     if not work.reading.computable:
         return
-    st.markdown("**Closed loop, the controller known?** OP can be computed from it.")
+    st.markdown(words("**Closed loop, the controller known?** OP can be computed from it."))
     given: dict[str, float | None] = state.lasting(TOLD, dict)
     places = st.columns(len(FIELDS), gap="small", vertical_alignment="bottom")
     for place, (name, label) in zip(places, FIELDS.items(), strict=True):
@@ -34,8 +35,10 @@ def known_controller(work: Work) -> None:
             place=place,
             under=st.container(),
         )
-    st.caption("Ideal form, in the units and the time of the record; without τI there is no integral action.")
-    st.button("Compute OP", key="compute_op", on_click=_compute, args=(work, given), disabled=not given.get("Kc"))
+    st.caption(words("Ideal form, in the units and the time of the record; without τI there is no integral action."))
+    st.button(
+        words("Compute OP"), key="compute_op", on_click=_compute, args=(work, given), disabled=not given.get("Kc")
+    )
     why = state.lasting("from_data_answer", str)
     if why and work.trend is None:
         st.error(told(why))

@@ -8,14 +8,15 @@ import streamlit as st
 
 from pages.common.from_data import points_view
 from pages.common.from_data.work import MORE, Fits, Work
-from pages.common.parts.structures import TITLES, sign_of
+from pages.common.parts.structures import sign_of, title_of
 from pages.common.parts.symbols import sentence, symbols
 from pages.common.session import state
 from pages.common.session.design import Design
+from pages.common.words import number, numeral, translated, words
 from simc_core import Identified, Trend
 from simc_core.identification.judgement.gain_per_move import disagreement
 from simc_core.identification.rank import USUAL
-from simc_core.notation import number
+from simc_core.wording import counted
 
 FORMULAS = {
     "FOPDT": r"\frac{k\,e^{-\theta s}}{\tau_1 s+1}",
@@ -44,9 +45,9 @@ def fits_of(work: Work, part: Trend | None, design: Design, why: str) -> Fits:
 
     def progress(done: int, of: int) -> None:
         if monotonic() - begun > LONG:
-            place.progress(done / of, f"Fitting: {done} of {of} structures")
+            place.progress(done / of, words("Fitting: {done} of {n} structures", done=done, n=of))
 
-    with st.spinner("Fitting", show_time=True):
+    with st.spinner(words("Fitting"), show_time=True):
         found = work.fitted(part, design.record, wanted, progress)
     place.empty()
     return found
@@ -64,32 +65,38 @@ def ranking(fits: Fits, model: Identified, trend: Trend) -> None:
     keys = [each.structure for each in fits.found]
     state.set_widget("structure", model.structure)
     st.segmented_control(
-        "Model, the best first",
+        words("Model, the best first"),
         keys,
-        format_func=lambda key: TITLES[key],
+        format_func=title_of,
         key="structure",
         required=True,
         on_change=_take,
     )
-    st.toggle("More structures", key="more_structures", help="A zero, oscillating, double integrating, unstable.")
+    st.toggle(
+        words("More structures"),
+        key="more_structures",
+        help=words("A zero, oscillating, double integrating, unstable."),
+    )
     unit = trend.units.get("t", "")
     rows = [
         {
-            "model": TITLES[each.structure],
-            "fit [%]": f"{100 * each.fit:.1f}",
-            "behind": number(each.criterion) if each.criterion else "best",
+            words("model"): title_of(each.structure),
+            words("fit [%]"): numeral(f"{100 * each.fit:.1f}"),
+            words("behind"): number(each.criterion) if each.criterion else words("best"),
             f"θ [{unit}]" if unit else "θ": number(each.parameters["theta"]),
-            "others": ", ".join(
+            words("others"): ", ".join(
                 f"{sign_of(name)} = {number(value)}" for name, value in each.parameters.items() if name != "theta"
             ),
         }
         for each in fits.found
     ]
-    with st.expander("All fits"):
+    with st.expander(words("All fits")):
         st.dataframe(rows, hide_index=True, width="stretch", height="content")
         st.caption(
-            "Behind: difference of the information criterion from the best. Up to 6 a structure fits nearly as well, "
-            "and the simpler one is the safer choice."
+            words(
+                "Behind: difference of the information criterion from the best. Up to 6 a structure fits nearly as "
+                "well, and the simpler one is the safer choice."
+            )
         )
 
 
@@ -103,19 +110,25 @@ def card(model: Identified, trend: Trend, names: list[str]) -> None:
         slope = _cell_html(
             "k/τ₁", number(value), f"± {number(model.estimate.half_width * error, 2)}", _unit("k_prime", trend)
         )
-    label = "Parameters of the model with 95 % intervals"
+    label = escape(words("Parameters of the model with 95 % intervals"))
     st.html(f'<div class="typed model" role="group" aria-label="{label}">{cells}{slope}</div>')
-    facts = [f"fit {100 * model.fit:.1f} %", f"{model.predicted.size} samples", f"noise {number(model.noise, 2)}"]
+    facts = [
+        words("fit {share:.1f} %", share=100 * model.fit),
+        translated(counted("{n} sample", "{n} samples", model.predicted.size)),
+        words("noise {noise}", noise=number(model.noise, 2)),
+    ]
     if model.correlation > 0.05:
-        facts.append(f"correlation of neighbouring residuals {number(model.correlation, 2)}")
-    st.caption(", ".join(facts) + ". Intervals: 95 %.")
+        facts.append(
+            words("correlation of neighbouring residuals {correlation}", correlation=number(model.correlation, 2))
+        )
+    st.caption(words("{facts}. Intervals: 95 %.", facts=", ".join(facts)))
     if model.verdicts:
         with st.container(key="verdicts"):
             st.warning("\n".join(f"- {sentence(verdict)}" for verdict in model.verdicts))
     apart = disagreement(model.gains)
     if apart is not None and apart.kind == "gain":
         st.button(
-            "A model for each operating point",
+            words("A model for each operating point"),
             key="to_points",
             icon=":material/arrow_forward:",
             type="tertiary",
@@ -126,20 +139,20 @@ def card(model: Identified, trend: Trend, names: list[str]) -> None:
 
 
 def _gains(model: Identified, trend: Trend, names: list[str]) -> None:
-    with st.expander("Gain of each move"):
+    with st.expander(words("Gain of each move")):
         unit = trend.units.get("t", "")
         rows = [
-            ({"record": f"{each.record + 1}: {names[each.record]}"} if len(names) > 1 else {})
+            ({words("record"): f"{each.record + 1}: {names[each.record]}"} if len(names) > 1 else {})
             | {
                 f"t [{unit}]" if unit else "t": number(each.t),
                 "OP": f"{number(each.before)} → {number(each.after)}",
-                "gain": number(each.gain),
+                words("gain"): number(each.gain),
                 "± (95 %)": number(model.estimate.half_width * each.standard_error, 2),
             }
             for each in model.gains
         ]
         st.dataframe(rows, hide_index=True, width="stretch", height="content")
-        st.caption("A linear process has the same gain at every move.")
+        st.caption(words("A linear process has the same gain at every move."))
 
 
 def _take() -> None:
@@ -176,6 +189,6 @@ def _between(low: float, high: float) -> str:
     """An interval with as many digits as its width deserves."""
     size, width = max(abs(low), abs(high)), high - low
     if low > 0 and high > UNKNOWN * low:
-        return "not resolved"
+        return words("not resolved")
     digits = 3 if not 0 < width < size else min(max(3, 1 + math.ceil(math.log10(size / width))), 8)
     return f"{number(low, digits)} … {number(high, digits)}"

@@ -11,15 +11,22 @@ from pages.common.parts.symbols import symbols
 from pages.common.session import state
 from pages.common.session.design import Design
 from pages.common.session.record import MOST_BAD
+from pages.common.words import number, translated, words
 from simc_core import Identified, SimcError, Trend, checks
 from simc_core.figures.trend import trend_figure
-from simc_core.notation import number
+from simc_core.wording import said
 
 HEIGHT, TALL = 360, 460  # px
 BAD_PIECE = "bad_piece"
 TURN = "from_data_drawn"
 SHOWN = "from_data_shown"  # the ends of the record, and of what is drawn of it
-ZOOM, CUT, LEAVE_OUT = DRAGS = ("zooms", "cuts to the range", "leaves the range out")
+ZOOM, CUT, LEAVE_OUT = DRAGS = (
+    said("zooms", context="dragging on the record"),
+    said("cuts to the range", context="dragging on the record"),
+    said("leaves the range out", context="dragging on the record"),
+)
+ENDS = {"begin": said("From"), "end": said("To")}
+BAD = {"from": said("Bad from"), "to": said("Bad to")}
 
 
 def figure(trend: Trend, design: Design, part: Trend | None, model: Identified | None) -> None:
@@ -33,9 +40,13 @@ def figure(trend: Trend, design: Design, part: Trend | None, model: Identified |
     shown = shown if of == ends_of(trend) else None
     moves = [move.t for move in moves_of(trend)]
     found = trend_figure(trend, cut, chosen.bad, moves, fitted, HEIGHT if fitted is None else TALL, shown)
-    name = "PV, OP" if trend.r is None else "PV, SP, OP"
-    told = " and the model with its residuals" if fitted else ""
-    alt = f"Record of {name} over {number(trend.span)} {trend.units.get('t', '')}{told}"
+    series = "PV, OP" if trend.r is None else "PV, SP, OP"
+    span = f"{number(trend.span)} {trend.units.get('t', '')}"
+    alt = (
+        words("Record of {series} over {span} and the model with its residuals", series=series, span=span)
+        if fitted
+        else words("Record of {series} over {span}", series=series, span=span)
+    )
     turn = state.lasting(TURN, lambda: 0)  # a fresh figure after each range that was drawn: nothing stays selected
     key = f"figure_trend_{turn}"
     drag = state.widget("drag_does", ZOOM)
@@ -44,9 +55,16 @@ def figure(trend: Trend, design: Design, part: Trend | None, model: Identified |
     with st.container(key="figure_trend"):
         show(found, trend, key, "trend", alt, **pick)
     with st.container(horizontal=True, vertical_alignment="bottom"):
-        st.segmented_control("Dragging on the record", DRAGS, default=ZOOM, required=True, key="drag_does")
+        st.segmented_control(
+            words("Dragging on the record"),
+            DRAGS,
+            format_func=translated,
+            default=ZOOM,
+            required=True,
+            key="drag_does",
+        )
         if shown:
-            st.button("Whole record", key="whole_record", on_click=state.make_last, args=(SHOWN, (None, None)))
+            st.button(words("Whole record"), key="whole_record", on_click=state.make_last, args=(SHOWN, (None, None)))
 
 
 def choose_part(trend: Trend, design: Design) -> None:
@@ -57,7 +75,7 @@ def choose_part(trend: Trend, design: Design) -> None:
     state.set_widget("part", (begin, end))
     places = st.columns([4, 1, 1], gap="small", vertical_alignment="bottom")
     places[0].slider(
-        "Part that is fitted",
+        words("Part that is fitted"),
         low,
         high,
         key="part",
@@ -68,7 +86,7 @@ def choose_part(trend: Trend, design: Design) -> None:
     )
     for name, place, value in (("begin", places[1], begin), ("end", places[2], end)):
         number_field(
-            {"begin": "From", "end": "To"}[name],
+            translated(ENDS[name]),
             float(f"{value:.6g}"),
             lambda value, name=name: _check(trend, name, value),
             lambda value, name=name: state.change(**{name: value}),
@@ -83,15 +101,15 @@ def bad_pieces(trend: Trend, design: Design) -> None:
     """Stretches that are left out: two fields and a list to take them back from."""
     unit = trend.units.get("t", "")
     bad = design.record.bad
-    title = f"Left out: {len(bad)}" if bad else "Leave out a bad piece"
+    title = words("Left out: {n}", n=len(bad)) if bad else words("Leave out a bad piece")
     with st.expander(title):
         given: dict[str, float] = state.lasting(BAD_PIECE, dict)
         places = st.columns([1, 1, 1], gap="small", vertical_alignment="bottom")
         for name, place in (("from", places[0]), ("to", places[1])):
             number_field(
-                f"Bad {name}",
+                translated(BAD[name]),
                 given.get(name),
-                lambda value: None if value is None else checks.real("It", value, *ends_of(trend)),
+                lambda value: None if value is None else checks.real(said("It"), value, *ends_of(trend)),
                 lambda value, name=name: given.__setitem__(name, value),
                 f"bad_{name}",
                 unit=unit,
@@ -101,13 +119,18 @@ def bad_pieces(trend: Trend, design: Design) -> None:
             )
         full = len(bad) >= MOST_BAD
         places[2].button(
-            "Leave out", key="leave_out", on_click=_leave_out, args=(trend, given), disabled=full, width="stretch"
+            words("Leave out"),
+            key="leave_out",
+            on_click=_leave_out,
+            args=(trend, given),
+            disabled=full,
+            width="stretch",
         )
         why = state.lasting("bad_refused", str)
         if why:
             st.error(symbols(why))
         for i, (low, high) in enumerate(bad):
-            label = f"Take back {number(low)} to {number(high)} {unit}".rstrip()
+            label = words("Take back {low} to {high}", low=number(low), high=f"{number(high)} {unit}".rstrip())
             st.button(label, key=f"take_back_{i}", on_click=_take_back, args=(i,))
 
 
@@ -149,8 +172,7 @@ def _take_part(low: float, high: float) -> None:
 
 def _check(trend: Trend, name: str, value: float | None) -> None:
     low, high = ends_of(trend)
-    label = {"begin": "From", "end": "To"}[name]
-    checks.real(label, value, low, high)
+    checks.real(ENDS[name], value, low, high)
     state.with_changes(**{name: value})
 
 
@@ -159,7 +181,7 @@ def _leave_out(trend: Trend, given: dict[str, float]) -> None:
     low, high = given.get("from"), given.get("to")
     try:
         if low is None or high is None or not low < high:
-            raise SimcError("both ends are needed, the second after the first")
+            raise SimcError(said("both ends are needed, the second after the first"))
         bad = (*state.value("bad"), (low, high))
         trend.without(low, high)
         state.change(bad=bad)

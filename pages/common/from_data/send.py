@@ -68,4 +68,4 @@ def send(
 
 def _source(work: Work) -> str:
     more = len(work.names()) - 1
-    return f"{work.name} and {more} more" if more else work.name
+    return f"{work.name} and {more} more" if more else work.name  # kept in links

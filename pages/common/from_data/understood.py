@@ -6,14 +6,29 @@ from pages.common.from_data.work import Work
 from pages.common.parts.foreign_text import exact, told
 from pages.common.parts.number_field import number_field
 from pages.common.session import state
+from pages.common.words import translated, words
 from simc_core import SimcError, checks
 from simc_core.identification.experiments.known_controller import COMPUTED
 from simc_core.identification.reading.questions import Question
 from simc_core.identification.reading.roles import ROLES
+from simc_core.wording import said
 
 NONE = "none"
 UNITS = ("s", "ms", "min", "h")
-MEANING = {"PV": "the measurement", "OP": "the controller output", "SP": "the set point"}
+MEANING = {
+    "PV": said("Column of PV, the measurement."),
+    "OP": said("Column of OP, the controller output."),
+    "SP": said("Column of SP, the set point."),
+}
+ASKED = {
+    "day_first": said("Day first"),
+    "decimal": said("Decimal"),
+}
+CHOICES = {
+    NONE: said("none", context="column of a file"),
+    "day first": said("day first"),
+    "month first": said("month first"),
+}
 
 
 def show(work: Work) -> None:
@@ -30,43 +45,43 @@ def show(work: Work) -> None:
         if name in questions:
             _question(work, questions[name])
     if len(work.table.sheets) > 1:
-        _pick(work, "sheet", "Sheet of the file", list(work.table.sheets), work.how.get("sheet"))
+        _pick(work, "sheet", words("Sheet of the file"), list(work.table.sheets), work.how.get("sheet"))
     notes = [told(question.text) for question in reading.questions if question.assumed]
     if notes:
-        st.info("Not certain, please check:\n\n" + "\n".join(f"- {note}" for note in notes))
+        st.info(words("Not certain, please check:") + "\n\n" + "\n".join(f"- {note}" for note in notes))
     why = state.lasting("from_data_answer", str)
     if why and work.trend is not None:
         st.error(told(why))
     if "controller" in work.how and work.trend is not None:
         st.warning(told(COMPUTED))
-    with st.expander("What was understood"):
-        st.markdown("\n".join(f"- {told(sentence.rstrip('.'))}" for sentence in reading.understood))
+    with st.expander(words("What was understood")):
+        st.markdown("\n".join(f"- {told(translated(sentence).rstrip('.'))}" for sentence in reading.understood))
 
 
 def _role(work: Work, role: str) -> None:
     found = work.reading.roles.get(role, "")
     names = list(work.reading.signals)
     choices = names if role != "SP" else [NONE, *names]
-    _pick(work, role, role, choices, found or (NONE if role == "SP" else None), f"Column of {role}, {MEANING[role]}.")
+    _pick(work, role, role, choices, found or (NONE if role == "SP" else None), translated(MEANING[role]))
 
 
 def _time_unit(work: Work, questions: dict[str, Question]) -> None:
     if "time_unit" in questions or "time_unit" in work.how:
-        _pick(work, "time_unit", "Time is in", list(UNITS), work.how.get("time_unit", "s"))
+        _pick(work, "time_unit", words("Time is in"), list(UNITS), work.how.get("time_unit", "s"))
 
 
 def _question(work: Work, question: Question) -> None:
     if question.name == "period":
         number_field(
-            "Seconds from one row to the next",
+            words("Seconds from one row to the next"),
             work.how.get("period"),
-            lambda value: checks.real("It", value, 1e-9, 1e9),
+            lambda value: checks.real(said("It"), value, 1e-9, 1e9),
             lambda value: answer(work, "period", value),
             "period",
         )
         return
     st.caption(told(question.text))
-    _pick(work, question.name, question.name.replace("_", " ").capitalize(), list(question.choices), question.assumed)
+    _pick(work, question.name, translated(ASKED[question.name]), list(question.choices), question.assumed)
 
 
 def _pick(work: Work, name: str, label: str, choices: list[str], now: str | None, about: str | None = None) -> None:
@@ -76,9 +91,10 @@ def _pick(work: Work, name: str, label: str, choices: list[str], now: str | None
         label,
         choices,
         index=None if now not in choices else 0,
+        format_func=lambda choice: translated(CHOICES.get(choice, choice)),
         key=key,
         help=about,
-        placeholder="none",
+        placeholder=translated(CHOICES[NONE]),
         on_change=_take,
         args=(work, name, key),
     )

@@ -1,6 +1,5 @@
 """The record that is being worked on: read once, then cut, cleaned and fitted. Pure: no streamlit."""
 
-import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -13,9 +12,10 @@ from simc_core.identification.reading.meaning import Reading, understand
 from simc_core.identification.reading.reader import load
 from simc_core.identification.reading.table import Table
 from simc_core.identification.uncertainty import NEAR
+from simc_core.wording import Text, said
 
 OF_A_FILE = ("decimal", "day_first", "sheet")  # what a file must be read anew for
-ARGUMENT = re.compile(r", \w+=\.\.\.")
+NO_UNIT = said("no unit")
 MORE = ("inverse", "oscillating", "DIPDT", "unstable")
 
 
@@ -75,7 +75,8 @@ class Work:
     @property
     def refusal(self) -> str:
         """Why there is no trend; what the library calls the argument that helps is a field of the page."""
-        return ARGUMENT.sub("", self.reading.refusal)
+        why = self.reading.refusal
+        return why.put(argument="") if isinstance(why, Text) and "argument" in why.values else why
 
     def answer(self, name: str, value: Any) -> None:
         """Take an answer and understand the record anew. Raises SimcError, and then nothing has changed."""
@@ -102,8 +103,8 @@ class Work:
         for other in self.beside:
             part, why = other.part(other.chosen)
             if part is not None and part.units.get("t", "") != unit:
-                own = part.units.get("t") or "no unit"
-                part, why = None, f"its time is in {own}, here in {unit or 'no unit'}"
+                own = part.units.get("t") or NO_UNIT
+                part, why = None, said("its time is in {own}, here in {unit}", own=own, unit=unit or NO_UNIT)
             fitted = sum(each.part is not None for each in found)
             found.append(Along(other.name, part, 2 + fitted if part is not None else 0, why))
         return found
@@ -187,7 +188,9 @@ def work_on(name: str, content: bytes | str, example: str = "") -> Work:
 def work_on_example(key: str) -> Work:
     """A record that the program makes. Raises SimcError."""
     if key not in EXAMPLES:
-        raise SimcError(f"example must be one of {', '.join(EXAMPLES)}, found {key[:20]}")
+        raise SimcError(
+            said("example must be one of {examples}, found {found}", examples=", ".join(EXAMPLES), found=key[:20])
+        )
     return work_on(EXAMPLES[key].title, text_of(key), key)
 
 

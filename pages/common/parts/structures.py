@@ -3,7 +3,7 @@
 from pages.common.parts.foreign_text import exact
 from pages.common.parts.symbols import SYMBOLS
 from pages.common.session.record import PARAMETERS, Origin
-from pages.common.words import number, words
+from pages.common.words import capitalised, number, translated, words
 from simc_core.wording import said
 
 NAMES = {
@@ -16,8 +16,12 @@ NAMES = {
     "DIPDT": said("double integrating"),
     "unstable": said("unstable"),
 }
-TITLES = {structure: name[0].upper() + name[1:] for structure, name in NAMES.items()}
 SIGNS = {"k_prime": "k'", "k_double_prime": "k''"}
+
+
+def title_of(structure: str) -> str:
+    """A structure, as it is called at the beginning of a line."""
+    return capitalised(translated(NAMES[structure]))
 
 
 def sign_of(parameter: str) -> str:

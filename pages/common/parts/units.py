@@ -26,7 +26,7 @@ def labels(sheet: Sheet) -> dict[str, str]:
 
 def named(text: str, sheet: Sheet) -> str:
     """A text with its open places filled."""
-    return _filled(text, labels(sheet))
+    return filled(text, labels(sheet))
 
 
 def axes_named(figure: dict, sheet: Sheet) -> dict:
@@ -37,15 +37,15 @@ def axes_named(figure: dict, sheet: Sheet) -> dict:
             title = axis.get("title")
             text = title.get("text") if isinstance(title, dict) else title
             if text:
-                text = _filled(text, safe)
+                text = filled(text, safe)
                 axis["title"] = {**title, "text": text} if isinstance(title, dict) else text
     for trace in figure["data"] if sheet.time_unit else ():
         if "[rad/time unit]" in trace.get("hovertemplate", ""):
-            trace["hovertemplate"] = _filled(trace["hovertemplate"], {"[rad/time unit]": f"rad/{sheet.time_unit}"})
+            trace["hovertemplate"] = filled(trace["hovertemplate"], {"[rad/time unit]": f"rad/{sheet.time_unit}"})
     return figure
 
 
-def _filled(text: str, units: dict[str, str]) -> str:
+def filled(text: str, units: dict[str, str]) -> str:
     """A text with its open places filled; one that can be translated still can."""
     if isinstance(text, Text):
         return text.put(

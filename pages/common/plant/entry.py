@@ -123,6 +123,7 @@ def _examples(name: str) -> None:
     st.selectbox(
         words("From the literature"),
         titles,
+        format_func=translated,
         key=key,
         placeholder=words("Choose one"),
         on_change=_take_example,

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from simc_core.identification.estimator.held_input import Array, HeldInput, Located
+from simc_core.wording import said
 
 Columns = Callable[[HeldInput, Located, NDArray[np.float64]], list[Array]]
 Free = Callable[[Array, NDArray[np.float64]], list[Array]]
@@ -113,13 +114,17 @@ class Structure:
 STRUCTURES: Mapping[str, Structure] = {
     structure.key: structure
     for structure in (
-        Structure("FOPDT", "first order with delay", ("tau1",), ("k",), _first_order),
-        Structure("SOPDT", "second order with delay", ("tau1", "tau2"), ("k",), _two_lags),
-        Structure("IPDT", "integrating with delay", (), ("k_prime",), _integrator, _none, 1),
-        Structure("IPDT_lag", "integrating with lag and delay", ("tau2",), ("k_prime",), _integrator_and_lag, ramp=1),
-        Structure("DIPDT", "double integrating with delay", (), ("k_double_prime",), _two_integrators, _none, 2),
-        Structure("inverse", "second order with zero and delay", ("tau1", "tau2"), ("k", "kT"), _two_lags_and_zero),
-        Structure("oscillating", "oscillating with delay", ("tau0", "zeta"), ("k",), _pair, _swing),
-        Structure("unstable", "unstable with delay", ("1/a",), ("k_prime",), _mirrored, always_free=True),
+        Structure("FOPDT", said("first order with delay"), ("tau1",), ("k",), _first_order),
+        Structure("SOPDT", said("second order with delay"), ("tau1", "tau2"), ("k",), _two_lags),
+        Structure("IPDT", said("integrating with delay"), (), ("k_prime",), _integrator, _none, 1),
+        Structure(
+            "IPDT_lag", said("integrating with lag and delay"), ("tau2",), ("k_prime",), _integrator_and_lag, ramp=1
+        ),
+        Structure("DIPDT", said("double integrating with delay"), (), ("k_double_prime",), _two_integrators, _none, 2),
+        Structure(
+            "inverse", said("second order with zero and delay"), ("tau1", "tau2"), ("k", "kT"), _two_lags_and_zero
+        ),
+        Structure("oscillating", said("oscillating with delay"), ("tau0", "zeta"), ("k",), _pair, _swing),
+        Structure("unstable", said("unstable with delay"), ("1/a",), ("k_prime",), _mirrored, always_free=True),
     )
 }

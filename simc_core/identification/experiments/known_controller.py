@@ -9,10 +9,11 @@ from simc_core.algebra.recursion import first_order
 from simc_core.controllers.forms import Controller, IController
 from simc_core.errors import InvalidParameter, NotIdentifiable, WrongType
 from simc_core.identification.trend import MOST_SAMPLES, Trend, check_trend
+from simc_core.wording import said
 
 Array = NDArray[np.float64]
 PARTS = 4  # of the time from sample to sample, in which OP is held
-COMPUTED = (
+COMPUTED = said(
     "OP was computed from PV, SP and the controller: that must have been in automatic, with these settings and within "
     "the limits of its output, throughout."
 )
@@ -56,20 +57,26 @@ def op_of_controller(trend: Trend, controller: Controller) -> Trend:
     """
     trend = check_trend(trend)
     if not isinstance(controller, Controller):
-        raise WrongType(f"controller must be a controller, found {type(controller).__name__}")
+        raise WrongType(said("controller must be a controller, found {found}", found=type(controller).__name__))
     if trend.r is None or np.ptp(trend.r) == 0:
         raise NotIdentifiable(
-            "OP is not in the record and the set point never moves: nothing excites the loop, so that PV and the "
-            "controller tell nothing of the process. Move the set point, or log OP."
+            said(
+                "OP is not in the record and the set point never moves: nothing excites the loop, so that PV and the "
+                "controller tell nothing of the process. Move the set point, or log OP."
+            )
         )
     if PARTS * trend.t.size > MOST_SAMPLES:
-        raise InvalidParameter(f"The record may have {MOST_SAMPLES // PARTS} samples, found {trend.t.size}")
+        raise InvalidParameter(
+            said("The record may have {most} samples, found {found}", most=MOST_SAMPLES // PARTS, found=trend.t.size)
+        )
     Kp, Ki, Kd, tau_F, b, c = _parallel(controller)
     steps = np.diff(trend.t)
     positive = steps[steps > 0]
     uneven = np.ptp(positive) > 0.01 * float(np.median(positive))
     if Kd and not tau_F and uneven:
-        raise InvalidParameter("tau_F must be > 0 where the derivative of an unevenly spaced record is taken, found 0")
+        raise InvalidParameter(
+            said("tau_F must be > 0 where the derivative of an unevenly spaced record is taken, found 0")
+        )
     share = (np.arange(PARTS) + 0.5) / PARTS  # middles of the parts
     r = trend.r[:-1, None]
     y = trend.y[:-1, None] + share * np.diff(trend.y)[:, None]
@@ -86,7 +93,7 @@ def op_of_controller(trend: Trend, controller: Controller) -> Trend:
     if tau_F:
         u = _filtered(u, np.repeat(steps / PARTS, PARTS), tau_F)
     kept = np.repeat(steps > 0, PARTS)
-    names = {**trend.names, "u": "OP, computed"}
+    names = {**trend.names, "u": said("OP, computed")}
     units = {name: unit for name, unit in trend.units.items() if name != "u"}
     return replace(trend, u=u[kept], t_u=at[kept], names=names, units=units, notes=(*trend.notes, COMPUTED))
 

@@ -18,6 +18,7 @@ from simc_core.identification.trend import Trend, check_trend
 from simc_core.plants.models import Model
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.ultimate import ultimate
+from simc_core.wording import said
 
 POINTS = 2000  # of the record, about
 
@@ -91,10 +92,10 @@ def relay_test(plant: Plant, amplitude: float, hysteresis: float = 0.0, bias: fl
     (3.5631, 35.9, 38.6)
     """
     if not isinstance(plant, Plant):
-        raise WrongType(f"plant must be a Plant, found {type(plant).__name__}")
+        raise WrongType(said("plant must be a Plant, found {found}", found=type(plant).__name__))
     amplitude = checks.magnitude("amplitude", amplitude, checks.LARGEST_GAIN)
     if amplitude < 0:
-        raise InvalidParameter(f"amplitude must be > 0, found {amplitude:g}")
+        raise InvalidParameter(said("{name} must be > 0, found {number:g}", name="amplitude", number=amplitude))
     hysteresis = checks.real("hysteresis", hysteresis, 0.0, checks.LARGEST_GAIN)
     bias = checks.real("bias", bias, -0.999 * amplitude, 0.999 * amplitude)
     try:
@@ -159,15 +160,17 @@ def relay_from_trend(trend: Trend) -> Relay:
     changed = 1 + np.flatnonzero(np.diff(trend.u))
     at, to = trend.instants_of_u[changed], trend.u[changed]
     if at.size < 6:
-        raise NotIdentifiable(f"A relay test needs at least 6 switchings of OP, found {at.size}")
+        raise NotIdentifiable(said("A relay test needs at least 6 switchings of OP, found {n}", n=at.size))
     if np.unique(to).size > 2:
-        raise NotIdentifiable(f"A relay has two levels of OP, found {np.unique(to).size}")
+        raise NotIdentifiable(said("A relay has two levels of OP, found {n}", n=np.unique(to).size))
     later = at[max(at.size - 7, 1) :]
     period = float(np.mean(later[2:] - later[:-2]))
     begin, end = later[0], later[0] + 2 * period
     part = trend.y[(trend.t >= begin) & (trend.t <= end)]
     if part.size < 8:
-        raise NotIdentifiable(f"A relay test needs at least 4 samples of PV in a period, found {part.size / 2:.0f}")
+        raise NotIdentifiable(
+            said("A relay test needs at least 4 samples of PV in a period, found {n:.0f}", n=part.size / 2)
+        )
     low, high = np.quantile(part, [0.02, 0.98])
     sign, model = 1.0, None
     try:

@@ -14,6 +14,7 @@ from simc_core.algebra.state_space import chain
 from simc_core.errors import NotStable
 from simc_core.identification.estimator.held_input import Array
 from simc_core.plants.plant import Plant
+from simc_core.wording import said
 
 STEPS = 600  # of the grid on which crossings are bracketed, in a period
 MOST_STEPS = 60_000
@@ -98,7 +99,7 @@ def course(plant: Plant, levels: tuple[float, float], hysteresis: float, period:
                 break
     if len(at) < 6:
         raise NotStable(
-            "The relay does not keep this plant oscillating: take a larger amplitude or a smaller hysteresis"
+            said("The relay does not keep this plant oscillating: take a larger amplitude or a smaller hysteresis")
         )
     return Course(np.array(times), np.array(values), np.array(at), np.array(level))
 

@@ -11,6 +11,7 @@ from math import inf, pi
 from simc_core import checks
 from simc_core.controllers.forms import IdealPid, SeriesPid
 from simc_core.errors import InvalidParameter, WrongType
+from simc_core.wording import said
 
 SLOW = 3.0  # P0/tau_I from which the integral action makes the oscillation
 FAST = 1.0  # and below which the gain makes it
@@ -76,42 +77,55 @@ def retune_oscillation(controller: SeriesPid | IdealPid, period: float, theta: f
     ('integral', 10.1, 40.5)
     """
     if not isinstance(controller, SeriesPid | IdealPid):
-        raise WrongType(f"controller must be a SeriesPid or an IdealPid, found {type(controller).__name__}")
+        raise WrongType(
+            said("controller must be a SeriesPid or an IdealPid, found {found}", found=type(controller).__name__)
+        )
     period = checks.positive_time("period", period)
     if theta is not None:
         theta = checks.positive_time("theta", theta)
     if controller.tau_I == inf:
-        raise InvalidParameter("controller must have integral action, found tau_I = inf: lower Kc instead")
+        raise InvalidParameter(said("controller must have integral action, found tau_I = inf: lower Kc instead"))
     ratio = period / controller.tau_I
     short = theta is not None and period <= FAST_IN_THETA * theta
     if ratio > SLOW and not short:
         return _integral(controller, ratio, period, theta)
     if ratio < FAST or short:
         new = _with(controller, controller.Kc / 2, controller.tau_I)
-        text = (
-            f"A fast oscillation, its period {ratio:.2g} tau_I: the gain is too high. Halve Kc, and again while it "
-            "lasts."
+        text = said(
+            "A fast oscillation, its period {ratio:.2g} tau_I: the gain is too high. Halve Kc, and again while it "
+            "lasts.",
+            ratio=ratio,
         )
         return Retuned("gain", text, new, 0.5)
-    text = (
-        f"The period is {ratio:.2g} tau_I: gain and integral action may both be the cause. Make a step test, or halve "
-        "Kc for a trial."
+    text = said(
+        "The period is {ratio:.2g} tau_I: gain and integral action may both be the cause. Make a step test, or halve "
+        "Kc for a trial.",
+        ratio=ratio,
     )
     return Retuned("unclear", text, controller, 1.0)
 
 
 def _integral(controller: SeriesPid | IdealPid, ratio: float, period: float, theta: float | None) -> Retuned:
     factor = ratio**2 / pi**2  # 0.1 as printed
-    Kc, said = controller.Kc, "all of it on tau_I, which is safe whatever the dead time"
+    Kc = controller.Kc
+    text = said(
+        "A slow oscillation, its period {ratio:.2g} tau_I: Kc tau_I is too small. Multiply it by {factor:.2g}: all of "
+        "it on tau_I, which is safe whatever the dead time.",
+        ratio=ratio,
+        factor=factor,
+    )
     if theta is not None and period > SLOW_IN_THETA * theta:
         # the oscillation itself shows Kc k' = (2 pi/P0)^2 tau_I: up to SIMC's own gain, Kc k' = 1/(2 theta), it is free
         allowed = period**2 / (4 * pi**2 * controller.tau_I) / (2 * theta)
         Kc = controller.Kc * min(max(allowed, 1.0), factor)
-        said = f"Kc takes {Kc / controller.Kc:.2g} of it, up to SIMC's gain for this dead time, tau_I the rest"
+        text = said(
+            "A slow oscillation, its period {ratio:.2g} tau_I: Kc tau_I is too small. Multiply it by {factor:.2g}: Kc "
+            "takes {share:.2g} of it, up to SIMC's gain for this dead time, tau_I the rest.",
+            ratio=ratio,
+            factor=factor,
+            share=Kc / controller.Kc,
+        )
     share = factor / (Kc / controller.Kc)
-    text = (
-        f"A slow oscillation, its period {ratio:.2g} tau_I: Kc tau_I is too small. Multiply it by {factor:.2g}: {said}."
-    )
     return Retuned("integral", text, _with(controller, Kc, controller.tau_I * share), factor)
 
 

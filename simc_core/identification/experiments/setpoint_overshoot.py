@@ -13,6 +13,7 @@ from simc_core import checks
 from simc_core.controllers.forms import SeriesPid
 from simc_core.errors import InvalidParameter
 from simc_core.plants.models import FirstOrderDelay, IntegratingDelay
+from simc_core.wording import said
 
 MOST = 0.6  # overshoot for which the correlation was made; dy_inf as estimated never gives less than 0.11
 BEST = 0.3
@@ -93,13 +94,24 @@ def setpoint_overshoot(
     down = checks.real("lowest", lowest, -checks.LARGEST_GAIN, checks.LARGEST_GAIN) / setpoint
     if not 0 <= down < up:
         raise InvalidParameter(
-            f"lowest must lie between 0 and peak, in the direction of the set-point step, found {lowest:g} and {peak:g}"
+            said(
+                "lowest must lie between 0 and peak, in the direction of the set-point step, found {lowest:g} and "
+                "{peak:g}",
+                lowest=float(lowest),
+                peak=float(peak),
+            )
         )
     final = 0.45 * (up + down)  # b, as a share of the step
     overshoot = (up - final) / final
     if overshoot > MOST:
         raise InvalidParameter(
-            f"The overshoot must be at most {MOST:g}, best {BEST:g}, found {overshoot:.2g}: repeat with a smaller Kc0"
+            said(
+                "The overshoot must be at most {most:g}, best {best:g}, found {overshoot:.2g}: repeat with a smaller "
+                "Kc0",
+                most=MOST,
+                best=BEST,
+                overshoot=overshoot,
+            )
         )
     A = 1.152 * overshoot**2 - 1.607 * overshoot + 1
     offset = abs(1 - final)
@@ -122,9 +134,16 @@ def _model(Kc0: float, A: float, B: float, peak_time: float) -> FirstOrderDelay 
 def _advice(overshoot: float, final: float) -> tuple[str, ...]:
     found = []
     if overshoot < 0.2:
-        found.append(f"The overshoot is {overshoot:.2f}; at 0.1 the gain comes out 12 to 27 % low. Aim at 0.3.")
+        found.append(
+            said(
+                "The overshoot is {overshoot:.2f}; at 0.1 the gain comes out 12 to 27 % low. Aim at 0.3.",
+                overshoot=overshoot,
+            )
+        )
     if final > 1:
-        found.append("PV ends beyond the set point, which P control alone does not do: read peak and minimum again.")
+        found.append(
+            said("PV ends beyond the set point, which P control alone does not do: read peak and minimum again.")
+        )
     elif final > 0.9:
-        found.append("The offset is small: k and tau1 are not known, only k/tau1; the settings need no more.")
+        found.append(said("The offset is small: k and tau1 are not known, only k/tau1; the settings need no more."))
     return tuple(found)

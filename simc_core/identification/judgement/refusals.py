@@ -6,6 +6,7 @@ from simc_core.errors import NotIdentifiable
 from simc_core.identification.estimator.records import OFTEN
 from simc_core.identification.judgement.estimate import Estimate
 from simc_core.identification.trend import Trend
+from simc_core.wording import said
 
 EXPLAINED = 0.9  # share of the moves of OP that PV explains, from which a controller made them
 EXPLAINED_AT_REST = 0.5  # the same where the set point is known to be constant
@@ -18,19 +19,28 @@ def refuse_before(trend: Trend) -> None:
     at = trend.instants_of_u[moved + 1] if moved.size else np.empty(0)
     if not np.any(at < trend.t[-1]):
         raise NotIdentifiable(
-            f"OP never moves: it is {trend.u[0]:g} throughout, so that PV moves for another reason. Record a trend in "
-            "which OP is moved by hand, or the set point of the closed loop."
+            said(
+                "OP never moves: it is {OP:g} throughout, so that PV moves for another reason. Record a trend in which "
+                "OP is moved by hand, or the set point of the closed loop.",
+                OP=float(trend.u[0]),
+            )
         )
     if float(np.ptp(trend.y)) == 0:
-        raise NotIdentifiable(f"PV never moves: it is {trend.y[0]:g} throughout. Is it the right column?")
+        raise NotIdentifiable(
+            said("PV never moves: it is {PV:g} throughout. Is it the right column?", PV=float(trend.y[0]))
+        )
     values = np.unique(trend.y)
     if values.size == 2:
         raise NotIdentifiable(
-            f"PV takes two values only, {values[0]:g} and {values[1]:g}: it is written as coarsely as it moves, so "
-            "that neither dead time nor lag shows. Record PV with more digits."
+            said(
+                "PV takes two values only, {low:g} and {high:g}: it is written as coarsely as it moves, so that "
+                "neither dead time nor lag shows. Record PV with more digits.",
+                low=float(values[0]),
+                high=float(values[1]),
+            )
         )
     if trend.t_u is None and trend.r is not None and np.array_equal(trend.r, trend.u) and np.ptp(trend.u) > 0:
-        raise NotIdentifiable("OP and SP are the same series. Take the output of the controller for OP.")
+        raise NotIdentifiable(said("OP and SP are the same series. Take the output of the controller for OP."))
     _refuse_unexcited(trend)
 
 
@@ -45,8 +55,13 @@ def refuse_weak(estimate: Estimate) -> None:
         ratio = max(ratio, float(max(relative, 1e-300)) ** -0.5)
     if ratio < WEAK:
         raise NotIdentifiable(
-            f"PV does not answer the moves of OP beyond its noise: the gain is {gain:.2g} with a standard error of "
-            f"{error:.2g}. Repeat the test with steps about {min(8 / max(ratio, 0.1), 50):.0f} times as large."
+            said(
+                "PV does not answer the moves of OP beyond its noise: the gain is {gain:.2g} with a standard error of "
+                "{error:.2g}. Repeat the test with steps about {times:.0f} times as large.",
+                gain=gain,
+                error=error,
+                times=min(8 / max(ratio, 0.1), 50.0),
+            )
         )
 
 
@@ -54,10 +69,18 @@ def _refuse_unexcited(trend: Trend) -> None:
     constant = trend.r is not None and float(np.ptp(trend.r)) == 0
     share = made_by_controller(trend)
     if share > (EXPLAINED_AT_REST if constant else EXPLAINED):
-        at = "at a constant set point" if constant else "and nothing else moved OP"
         raise NotIdentifiable(
-            f"The loop was closed {at}: PV explains {100 * share:.0f} % of the moves of OP. A fit would return the "
-            "controller, -1/Kc, not the process. Move the set point, or OP by hand."
+            said(
+                "The loop was closed at a constant set point: PV explains {share:.0f} % of the moves of OP. A fit "
+                "would return the controller, -1/Kc, not the process. Move the set point, or OP by hand.",
+                share=100 * share,
+            )
+            if constant
+            else said(
+                "The loop was closed and nothing else moved OP: PV explains {share:.0f} % of the moves of OP. A fit "
+                "would return the controller, -1/Kc, not the process. Move the set point, or OP by hand.",
+                share=100 * share,
+            )
         )
 
 

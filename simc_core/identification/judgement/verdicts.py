@@ -1,11 +1,14 @@
 """What to think of a fit, in words."""
 
+from typing import Any
+
 import numpy as np
 
 from simc_core.identification.estimator.held_input import Array
 from simc_core.identification.estimator.records import Record
 from simc_core.identification.judgement.estimate import Estimate
 from simc_core.identification.judgement.gain_per_move import MOST, GainOfMove, disagreement
+from simc_core.wording import Text, counted, said
 
 SURE = 8.0  # standard errors of a gain from which a step was large enough
 ELSEWHERE = 5.0  # of the largest sum of residuals; correlated noise alone stays below 4.6
@@ -32,7 +35,12 @@ def verdicts(estimate: Estimate, half_width: float, moves: tuple[GainOfMove, ...
 def _poor(fit: float) -> list[str]:
     if fit >= 0.5:
         return []
-    return [f"The model explains little: PV differs from it by {100 * (1 - fit):.0f} % of PV's own movement."]
+    return [
+        said(
+            "The model explains little: PV differs from it by {share:.0f} % of PV's own movement.",
+            share=100 * (1 - fit),
+        )
+    ]
 
 
 def _size(estimate: Estimate) -> list[str]:
@@ -40,13 +48,17 @@ def _size(estimate: Estimate) -> list[str]:
     ratio = abs(gain) / error if error > 0 else np.inf
     if ratio >= SURE:
         return []
-    times = SURE / ratio
-    return [f"The step is small for the noise: repeat the test with about {times:.1f} times the step."]
+    return [
+        said(
+            "The step is small for the noise: repeat the test with about {times:.1f} times the step.",
+            times=SURE / ratio,
+        )
+    ]
 
 
 def _disturbed(estimate: Estimate) -> list[str]:
     problem = estimate.fit.problem
-    found = []
+    found: list[str] = []
     for record, part in zip(problem.records, problem.parts, strict=True):
         residual = estimate.fit.residual[part] * (problem.root_weight[part] > 0)
         spread = float(np.std(residual))
@@ -54,10 +66,12 @@ def _disturbed(estimate: Estimate) -> list[str]:
             continue
         course = np.cumsum(residual - residual.mean())
         if np.max(np.abs(course)) > ELSEWHERE * spread * np.sqrt(residual.size):
-            where = record.t[int(np.argmax(np.abs(course)))]
             found.append(
-                f"Something else than OP seems to have moved PV near {where:.4g} after the first sample: cut the trend "
-                "there and fit again, or fit a higher order."
+                said(
+                    "Something else than OP seems to have moved PV near {t:.4g} after the first sample: cut the trend "
+                    "there and fit again, or fit a higher order.",
+                    t=float(record.t[int(np.argmax(np.abs(course)))]),
+                )
             )
     return found
 
@@ -68,31 +82,65 @@ def disagree(moves: tuple[GainOfMove, ...]) -> list[str]:
     if found is None:
         return []
     several = len({move.record for move in moves}) > 1
-    low, high = (f"{move.gain:.3g}{_where(move, several)}" for move in (found.low, found.high))
+    low, high = (_gain(move, several) for move in (found.low, found.high))
     if found.kind == "stuck":
+        at: dict[str, Any] = {
+            "before": found.low.before,
+            "after": found.low.after,
+            "gain": found.low.gain,
+            "high": high,
+        }
+        if several:
+            return [
+                said(
+                    "PV hardly answers the move of OP from {before:g} to {after:g} in record {record} (gain {gain:.3g} "
+                    "instead of {high}): the valve sticks, or the actuator did not follow. Do not tune on this trend.",
+                    record=found.low.record + 1,
+                    **at,
+                )
+            ]
         return [
-            f"PV hardly answers the move of OP{_where(found.low, several)} (gain {found.low.gain:.3g} instead of "
-            f"{high}): the valve sticks, or the actuator did not follow. Do not tune on this trend."
+            said(
+                "PV hardly answers the move of OP from {before:g} to {after:g} (gain {gain:.3g} instead of {high}): "
+                "the valve sticks, or the actuator did not follow. Do not tune on this trend.",
+                **at,
+            )
         ]
     if found.kind == "sign":
         return [
-            f"The gain changes its sign, {low} and {high}: no controller with integral action serves both. Do not "
-            "tune on this model, fit one of them alone."
+            said(
+                "The gain changes its sign, {low} and {high}: no controller with integral action serves both. Do not "
+                "tune on this model, fit one of them alone.",
+                low=low,
+                high=high,
+            )
         ]
     if found.low.record != found.high.record:
         return [
-            f"The gain differs from record to record, {low} and {high}: the process is not linear, and one model is "
-            "right for neither. Fit each operating point by itself and make a gain schedule, or tune for the larger "
-            "gain."
+            said(
+                "The gain differs from record to record, {low} and {high}: the process is not linear, and one model is "
+                "right for neither. Fit each operating point by itself and make a gain schedule, or tune for the "
+                "larger gain.",
+                low=low,
+                high=high,
+            )
         ]
     return [
-        f"The gain differs from move to move, {low} and {high}: the process is not linear, or the valve sticks. Tune "
-        "for the larger gain, or fit each operating point by itself."
+        said(
+            "The gain differs from move to move, {low} and {high}: the process is not linear, or the valve sticks. "
+            "Tune for the larger gain, or fit each operating point by itself.",
+            low=low,
+            high=high,
+        )
     ]
 
 
-def _where(move: GainOfMove, several: bool) -> str:
-    return f" from {move.before:g} to {move.after:g}{f' in record {move.record + 1}' if several else ''}"
+def _gain(move: GainOfMove, several: bool) -> Text:
+    """The gain of a move, and which move it is."""
+    at: dict[str, Any] = {"gain": move.gain, "before": move.before, "after": move.after}
+    if several:
+        return said("{gain:.3g} from {before:g} to {after:g} in record {record}", record=move.record + 1, **at)
+    return said("{gain:.3g} from {before:g} to {after:g}", **at)
 
 
 def _settled(estimate: Estimate) -> list[str]:
@@ -105,18 +153,25 @@ def _settled(estimate: Estimate) -> list[str]:
     long = max(record.span for record in estimate.fit.problem.records)
     if lag > 10 * long:
         return [
-            "PV looks integrating: within this trend it does not level off. Gain and lag are not known, only their "
-            "ratio; compare with an integrating model."
+            said(
+                "PV looks integrating: within this trend it does not level off. Gain and lag are not known, only their "
+                "ratio; compare with an integrating model."
+            )
         ]
     few = all(record.held.s.size <= MOST for record in estimate.fit.problem.records)
     if error <= 0.1 and few and lag > after:
         return [
-            "PV had not settled when OP moved again or the trend ended: gain and lag rest on the shape of the curve."
+            said(
+                "PV had not settled when OP moved again or the trend ended: gain and lag rest on the shape of the "
+                "curve."
+            )
         ]
     if error > 0.3 or (few and lag > after):
         return [
-            "PV has not settled: gain and lag are uncertain, but k/tau1 and theta are known better, and SIMC needs "
-            "only these where tau1 > 4 (tau_c + theta)."
+            said(
+                "PV has not settled: gain and lag are uncertain, but k/tau1 and theta are known better, and SIMC needs "
+                "only these where tau1 > 4 (tau_c + theta)."
+            )
         ]
     return []
 
@@ -134,13 +189,19 @@ def _dead_time(estimate: Estimate, half_width: float) -> list[str]:
     interval = estimate.fit.problem.records[0].interval
     longest = float(estimate.fit.problem.high[0])
     if theta > 0.98 * longest:
-        return ["The dead time is at the longest that this trend can tell: PV may answer something else than OP."]
+        return [said("The dead time is at the longest that this trend can tell: PV may answer something else than OP.")]
     if low > 0 and interval <= theta:
         return []
-    return [
-        f"The dead time is not resolved{' by this sampling' if interval > theta else ''}: it lies between "
-        f"{max(low, 0.0):.3g} and {max(high, interval if interval > theta else high):.3g}."
-    ]
+    low = max(low, 0.0)
+    if interval > theta:
+        return [
+            said(
+                "The dead time is not resolved by this sampling: it lies between {low:.3g} and {high:.3g}.",
+                low=low,
+                high=max(high, interval),
+            )
+        ]
+    return [said("The dead time is not resolved: it lies between {low:.3g} and {high:.3g}.", low=low, high=high)]
 
 
 def _lags(estimate: Estimate) -> list[str]:
@@ -148,19 +209,25 @@ def _lags(estimate: Estimate) -> list[str]:
     interval = problem.records[0].interval
     lags = problem.lags(estimate.fit.point.x)
     if problem.structure.key == "FOPDT" and lags[0] < 0.5 * interval and estimate.values[0] < 2 * interval:
-        return ["PV answers within two samples: only the gain is known. Sample faster."]
+        return [said("PV answers within two samples: only the gain is known. Sample faster.")]
     return []
 
 
 def _along(estimate: Estimate) -> list[str]:
-    found = []
+    found: list[str] = []
     if estimate.drift and not estimate.fit.problem.structure.integrating:
-        found.append("PV drifts by itself; the drift was fitted along.")
+        found.append(said("PV drifts by itself; the drift was fitted along."))
     if estimate.start:
-        found.append("PV was not at rest when the trend begins; what was left of earlier moves was fitted along.")
+        found.append(said("PV was not at rest when the trend begins; what was left of earlier moves was fitted along."))
     zero = sum(int(np.count_nonzero(record.weight == 0)) for record in estimate.fit.problem.records)
     if zero:
-        found.append(f"{zero} single samples far from their neighbours were left out.")
+        found.append(
+            counted(
+                "{n} single sample far from its neighbours was left out.",
+                "{n} single samples far from their neighbours were left out.",
+                zero,
+            )
+        )
     return found
 
 

@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from simc_core.wording import counted, said
+
 HOUR = 3600.0
 CLOCK_CHANGE = (0.9 * HOUR, 1.1 * HOUR)  # how far a clock is put back
 RESTART = 0.1  # of the span: a jump back to before it begins another record
@@ -24,14 +26,15 @@ class Order:
 def in_order(t: NDArray[np.float64], hour: float = HOUR) -> Order:
     """Rows with an instant, in order of time. hour: in the unit of t."""
     rows = np.flatnonzero(np.isfinite(t))
-    said = []
+    notes: list[str] = []
     if rows.size < t.size:
-        said.append(f"{_rows(t.size - rows.size)} without a time left out.")
+        missing = t.size - rows.size
+        notes.append(counted("{n} row without a time left out.", "{n} rows without a time left out.", missing))
     t = t[rows]
     steps = np.diff(t)
     if steps.size and np.mean(steps < 0) > 0.5:
         rows, t = rows[::-1], t[::-1]
-        said.append("The newest came first: turned round.")
+        notes.append(said("The newest came first: turned round."))
         steps = np.diff(t)
     back = np.flatnonzero(steps < 0)
     lost = float(np.median(steps) - steps[back[0]]) * HOUR / hour if back.size == 1 else 0.0
@@ -39,32 +42,48 @@ def in_order(t: NDArray[np.float64], hour: float = HOUR) -> Order:
         t = t.copy()
         t[back[0] + 1 :] += hour
         at = rows[back[0]] + 1
-        said.append(f"The clock was put back by an hour after row {at} of the numbers: an hour is added from there.")
-        return Order(rows, t, said)
+        notes.append(
+            said(
+                "The clock was put back by an hour after row {row} of the numbers: an hour is added from there.",
+                row=int(at),
+            )
+        )
+        return Order(rows, t, notes)
     if back.size:
-        return _sorted(rows, t, back, said)
-    return Order(rows, t, said)
+        return _sorted(rows, t, back, notes)
+    return Order(rows, t, notes)
 
 
-def _sorted(rows: NDArray[np.intp], t: NDArray[np.float64], back: NDArray[np.intp], said: list[str]) -> Order:
+def _sorted(rows: NDArray[np.intp], t: NDArray[np.float64], back: NDArray[np.intp], notes: list[str]) -> Order:
     span = float(t.max() - t.min())
     restarts = [int(i) for i in back if t[i + 1] <= t.min() + RESTART * span]
     parts = np.split(np.arange(t.size), [i + 1 for i in restarts])
     longest = max(parts, key=len)
     if restarts and len(longest) < t.size and min(map(len, parts)) > 2:
         at = int(rows[longest[0]]) + 1
-        said.append(f"{ANEW}: {len(parts)} records. The longest is taken, from row {at} of the numbers on.")
+        notes.append(
+            counted(
+                "Time begins anew: {n} record. The longest is taken, from row {row} of the numbers on.",
+                "Time begins anew: {n} records. The longest is taken, from row {row} of the numbers on.",
+                len(parts),
+                row=at,
+            )
+        )
         rows, t = rows[longest], t[longest]
         back = np.flatnonzero(np.diff(t) < 0)
     if back.size:
         order = np.argsort(t, kind="stable")
         rows, t = rows[order], t[order]
-        times = "once" if back.size == 1 else f"{back.size} times"
-        said.append(
-            f"{BACKWARDS} {times}: sorted. Where a clock was put back this mixes what was measured before and after: "
-            "then take the file apart there."
+        notes.append(
+            counted(
+                "Time went backwards once: sorted. Where a clock was put back this mixes what was measured before and "
+                "after: then take the file apart there.",
+                "Time went backwards {n} times: sorted. Where a clock was put back this mixes what was measured before "
+                "and after: then take the file apart there.",
+                back.size,
+            )
         )
-    return Order(rows, t, said)
+    return Order(rows, t, notes)
 
 
 def without_repeats(t: NDArray[np.float64], u: NDArray[np.float64] | None) -> tuple[NDArray[np.bool_], str]:
@@ -78,8 +97,17 @@ def without_repeats(t: NDArray[np.float64], u: NDArray[np.float64] | None) -> tu
         steps = np.append(same & (np.diff(u) != 0), False)
         stepped = int(steps.sum())
         drop &= ~steps
-    kept = f"; OP steps at {stepped} of them, there both are kept" if stepped else ""
-    return ~drop, f"{int(same.sum())} repeated instants: the last value is kept{kept}."
+    count = int(same.sum())
+    if stepped:
+        return ~drop, counted(
+            "{n} repeated instant: the last value is kept; OP steps at {stepped} of them, there both are kept.",
+            "{n} repeated instants: the last value is kept; OP steps at {stepped} of them, there both are kept.",
+            count,
+            stepped=stepped,
+        )
+    return ~drop, counted(
+        "{n} repeated instant: the last value is kept.", "{n} repeated instants: the last value is kept.", count
+    )
 
 
 def first_is_rubbish(y: NDArray[np.float64]) -> bool:
@@ -88,7 +116,3 @@ def first_is_rubbish(y: NDArray[np.float64]) -> bool:
         return False
     jump, later = abs(float(y[1] - y[0])), np.abs(np.diff(y[1:50]))
     return jump > FAR * float(later[:10].max()) and jump > 4 * float(later.max()) and jump > 0.02 * float(np.ptp(y[1:]))
-
-
-def _rows(count: int) -> str:
-    return "1 row" if count == 1 else f"{count} rows"

@@ -3,6 +3,7 @@
 import codecs
 
 from simc_core.errors import DataError
+from simc_core.wording import said
 
 MOST_BYTES = 20_000_000  # of a file: a week at one second with three signals has about as much
 MARKS = (
@@ -11,7 +12,13 @@ MARKS = (
     (codecs.BOM_UTF16_BE, "utf-16", "UTF-16"),
 )
 PROBE = 4000  # bytes that tell UTF-16 by its zero bytes
-FOREIGN = {b"%PDF": "a PDF", b"\x89PNG": "a picture", b"\xff\xd8\xff": "a picture", b"GIF8": "a picture"}
+A_PICTURE = said("the file is a picture, not a table: export the numbers as CSV or as a spreadsheet")
+FOREIGN = {
+    b"%PDF": said("the file is a PDF, not a table: export the numbers as CSV or as a spreadsheet"),
+    b"\x89PNG": A_PICTURE,
+    b"\xff\xd8\xff": A_PICTURE,
+    b"GIF8": A_PICTURE,
+}
 
 
 def decoded(data: bytes, encoding: str | None = None) -> tuple[str, str]:
@@ -31,29 +38,35 @@ def decoded(data: bytes, encoding: str | None = None) -> tuple[str, str]:
     """
     if len(data) > MOST_BYTES:
         raise DataError(
-            f"a file may have at most {MOST_BYTES // 1_000_000} MB, found {len(data) / 1e6:.1f} MB: "
-            "cut out the test, or export every second sample"
+            said(
+                "a file may have at most {most} MB, found {size:.1f} MB: cut out the test, or export every second "
+                "sample",
+                most=MOST_BYTES // 1_000_000,
+                size=len(data) / 1e6,
+            )
         )
-    for mark, what in FOREIGN.items():
+    for mark, why in FOREIGN.items():
         if data.startswith(mark):
-            raise DataError(f"the file is {what}, not a table: export the numbers as CSV or as a spreadsheet")
+            raise DataError(why)
     if encoding is not None:
         try:
-            return data.decode(encoding), f"Text in {encoding}, as told."
+            return data.decode(encoding), said("Text in {encoding}, as told.", encoding=encoding)
         except (LookupError, UnicodeDecodeError):
-            raise DataError(f"encoding must be the one of the file, it cannot be read as {encoding[:20]}") from None
+            raise DataError(
+                said("encoding must be the one of the file, it cannot be read as {encoding}", encoding=encoding[:20])
+            ) from None
     for mark, name, title in MARKS:
         if data.startswith(mark):
-            return data.decode(name, errors="replace"), f"Text in {title}."
+            return data.decode(name, errors="replace"), said("Text in {encoding}.", encoding=title)
     wide = _wide(data[:PROBE])
     if wide:
-        return data.decode(wide, errors="replace"), "Text in UTF-16."
+        return data.decode(wide, errors="replace"), said("Text in {encoding}.", encoding="UTF-16")
     if b"\x00" in data[:PROBE]:
-        raise DataError("the file is not text: it holds zero bytes. Export it as CSV or as a spreadsheet (xlsx)")
+        raise DataError(said("the file is not text: it holds zero bytes. Export it as CSV or as a spreadsheet (xlsx)"))
     try:
-        return data.decode("utf-8"), "Text in UTF-8."
+        return data.decode("utf-8"), said("Text in {encoding}.", encoding="UTF-8")
     except UnicodeDecodeError:
-        return data.decode("cp1252", errors="replace"), "Text in Windows-1252, since it is not UTF-8."
+        return data.decode("cp1252", errors="replace"), said("Text in Windows-1252, since it is not UTF-8.")
 
 
 def _wide(head: bytes) -> str:

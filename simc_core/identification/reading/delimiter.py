@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from simc_core.errors import DataError
 from simc_core.identification.reading.instants import is_instant
 from simc_core.identification.reading.numerals import is_value
+from simc_core.wording import said
 
 LAST_LINES = 60
 MOST_ROWS = 1_000_000
@@ -15,7 +16,13 @@ MOST_COLUMNS = 64
 LONGEST_LINE = 20_000  # characters
 BLANKS = "blanks"
 CANDIDATES = ("\t", ";", "|", ",", BLANKS)  # where two fit alike, the first
-NAMES = {"\t": "tabs", ";": "semicolons", "|": "bars", ",": "commas", BLANKS: "blanks"}
+NAMES = {
+    "\t": said("tabs", context="columns separated by"),
+    ";": said("semicolons", context="columns separated by"),
+    "|": said("bars", context="columns separated by"),
+    ",": said("commas", context="columns separated by"),
+    BLANKS: said("blanks", context="columns separated by"),
+}
 FIRST_LINE = re.compile(r"sep=(.)\s*", re.IGNORECASE)  # with which Excel is told the delimiter
 
 
@@ -25,12 +32,21 @@ def lines_of(text: str) -> list[str]:
     while lines and not lines[-1].strip():
         lines.pop()
     if not lines:
-        raise DataError("there is nothing to read: the text is empty")
+        raise DataError(said("there is nothing to read: the text is empty"))
     if len(lines) > MOST_ROWS:
-        raise DataError(f"a trend may have at most {MOST_ROWS} rows, found {len(lines)}: cut out the test")
+        raise DataError(
+            said(
+                "a trend may have at most {most} rows, found {found}: cut out the test",
+                most=MOST_ROWS,
+                found=len(lines),
+            )
+        )
     long = next((i for i, line in enumerate(lines) if len(line) > LONGEST_LINE), None)
     if long is not None:
-        raise DataError(f"a line may have at most {LONGEST_LINE} characters, found {len(lines[long])}", line=long + 1)
+        raise DataError(
+            said("a line may have at most {most} characters, found {found}", most=LONGEST_LINE, found=len(lines[long])),
+            line=long + 1,
+        )
     return lines
 
 
@@ -40,14 +56,18 @@ def delimiter_of(lines: list[str], given: str | None = None) -> tuple[str, str]:
     if given is not None or told:
         sign = given if given is not None else told[1] if told else ""
         if sign not in CANDIDATES:
-            raise DataError(f"delimiter must be a tab, ; | , or {BLANKS}, found {sign[:10]!r}")
-        return sign, f"Columns separated by {NAMES[sign]}, as told."
+            raise DataError(
+                said("delimiter must be a tab, ; | , or {blanks}, found {found!r}", blanks=BLANKS, found=sign[:10])
+            )
+        return sign, said("Columns separated by {signs}, as told.", signs=NAMES[sign])
     last = [line for line in lines[-4 * LAST_LINES :] if line.strip()][-LAST_LINES:]
     scores = {sign: _score(last, sign) for sign in CANDIDATES}
     best = max(scores, key=scores.__getitem__)
     if scores[best] == 0:
-        raise DataError("no columns were found: rows must hold numbers with a tab, semicolon or comma between them")
-    return best, f"Columns separated by {NAMES[best]}."
+        raise DataError(
+            said("no columns were found: rows must hold numbers with a tab, semicolon or comma between them")
+        )
+    return best, said("Columns separated by {signs}.", signs=NAMES[best])
 
 
 def cells_of(lines: list[str], delimiter: str) -> Iterator[list[str]]:
@@ -59,7 +79,7 @@ def cells_of(lines: list[str], delimiter: str) -> Iterator[list[str]]:
     try:
         yield from ([cell.strip() for cell in row] for row in reader)
     except csv.Error as error:
-        why = f"the cells cannot be told apart ({error}): is a quote never closed?"
+        why = said("the cells cannot be told apart ({error}): is a quote never closed?", error=str(error))
         raise DataError(why, line=max(reader.line_num, 1)) from None
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from simc_core.errors import DataError
 from simc_core.identification.reading.instants import UNITS, is_instant
 from simc_core.identification.reading.numerals import is_number
+from simc_core.wording import counted, said
 
 MOST_HEADER_ROWS = 3
 HEAD = 200  # rows among which the first numbers must come
@@ -47,7 +48,14 @@ def header_of(head: Sequence[Sequence[str]], last: Sequence[Sequence[str]]) -> H
     usual = sorted(_readable(row) for row in last)[len(last) // 2]
     first = next((i for i, row in enumerate(head) if _readable(row) >= max(1, 0.5 * usual) and len(row) > 1), None)
     if first is None or usual == 0:
-        raise DataError(f"no row of numbers was found in the first {len(head)} lines", line=1)
+        raise DataError(
+            counted(
+                "no row of numbers was found in the first {n} line",
+                "no row of numbers was found in the first {n} lines",
+                len(head),
+            ),
+            line=1,
+        )
     above = [_uncommented(row) for row in head[:first]]
     named = [row for row in above if sum(bool(cell) for cell in row) > 1 or len(row) == width == 1][-MOST_HEADER_ROWS:]
     units = [""] * width
@@ -73,13 +81,29 @@ def _uncommented(row: Sequence[str]) -> list[str]:
 
 def _said(first: int, named: Sequence[Sequence[str]], extra: int) -> str:
     if not named:
-        return "No names above the numbers." if first == 0 else f"{_lines(first)} above the numbers left out, no names."
-    more = f"; {extra} more names than columns, the last ones left out" if extra > 0 else ""
-    return f"Names of the columns in {_lines(len(named))}, numbers from line {first + 1}{more}."
-
-
-def _lines(count: int) -> str:
-    return "1 line" if count == 1 else f"{count} lines"
+        if first == 0:
+            return said("No names above the numbers.")
+        return counted(
+            "{n} line above the numbers left out, no names.", "{n} lines above the numbers left out, no names.", first
+        )
+    if extra <= 0:
+        return counted(
+            "Names of the columns in {n} line, numbers from line {first}.",
+            "Names of the columns in {n} lines, numbers from line {first}.",
+            len(named),
+            first=first + 1,
+        )
+    return counted(
+        "Names of the columns in {n} line, numbers from line {first}; {extra}.",
+        "Names of the columns in {n} lines, numbers from line {first}; {extra}.",
+        len(named),
+        first=first + 1,
+        extra=counted(
+            "{n} more name than columns, the last one left out",
+            "{n} more names than columns, the last ones left out",
+            extra,
+        ),
+    )
 
 
 def _readable(row: Sequence[str]) -> int:
@@ -114,6 +138,6 @@ def _apart(names: Sequence[str]) -> tuple[str, ...]:
     """Names of which no two are the same; a column without a name is called by its place."""
     found: list[str] = []
     for i, name in enumerate(names, start=1):
-        wanted = name[:60] or f"column {i}"
+        wanted = name[:60] or said("column {i}", i=i)
         found.append(wanted if wanted not in found else f"{wanted} ({i})")
     return tuple(found)

@@ -6,6 +6,7 @@ import numpy as np
 
 from simc_core.identification.reading.columns import INSTANTS, NUMBERS, WORDS, Column
 from simc_core.identification.reading.time_axis import TimeAxis
+from simc_core.wording import counted, said
 
 MOST_TAGS = 20
 LEAST_VALUES = 2
@@ -28,6 +29,11 @@ def by_tags(columns: Sequence[Column], axis: TimeAxis) -> tuple[list[Column], Ti
     for code, word in enumerate(tag.words):
         values = np.where(tag.values == code, columns[at].values, np.nan)
         if np.isfinite(values).sum() >= LEAST_VALUES:
-            found.append(Column(word[:60] or "no tag", "", values))
-    said = f"One row for each value of a tag ({tag.name}): {len(found)} tags, each with its own instants."
-    return found, TimeAxis({-1: t}, axis.unit, set(), axis.said, axis.questions), said
+            found.append(Column(word[:60] or said("no tag"), "", values))
+    in_words = counted(
+        "One row for each value of a tag ({name}): {n} tag, each with its own instants.",
+        "One row for each value of a tag ({name}): {n} tags, each with its own instants.",
+        len(found),
+        name=tag.name,
+    )
+    return found, TimeAxis({-1: t}, axis.unit, set(), axis.said, axis.questions), in_words

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from simc_core.identification.reading.columns import QUALITY, Column
 from simc_core.identification.reading.questions import Question
 from simc_core.identification.reading.roles import PATTERNS
+from simc_core.wording import said
 
 HELD = 0.1  # share of its steps in which a column that is moved by hand or by a plan changes
 TOGETHER = 5  # rows within which moves are at once
@@ -35,12 +36,17 @@ def moved_too(columns: Sequence[Column], candidates: Sequence[int], at: Mapping[
         if _is_one(columns[op].values, other.values):
             if any(pattern.search(other.name) for pattern in PATTERNS["OP"]):
                 continue  # OP in another unit
-            text = f"{other.name} moves exactly as OP does: if it is another input, PV may answer either"
+            text = said(
+                "{column} moves exactly as OP does: if it is another input, PV may answer either.", column=other.name
+            )
         elif np.abs(moves[:, None] - own[None, :]).min() <= TOGETHER:
-            text = f"{other.name} was moved at once with OP: PV may answer either, and nothing here tells them apart"
+            text = said(
+                "{column} was moved at once with OP: PV may answer either, and nothing here tells them apart.",
+                column=other.name,
+            )
         else:
-            text = f"{other.name} changes too: PV may answer it; leave out what follows its steps"
-        found.append(Question("inputs", f"{text}.", (), "no answer to it"))
+            text = said("{column} changes too: PV may answer it; leave out what follows its steps.", column=other.name)
+        found.append(Question("inputs", text, (), "no answer to it"))
     return found[:MOST_NAMED]
 
 

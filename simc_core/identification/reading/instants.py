@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from simc_core.wording import said
+
 DAY = 86400.0
 MONTH_WORDS = (  # English, German, French, Spanish, Italian
     *("jan ene janv gen", "feb fév fev févr", "mar mär mrz mars", "apr abr avr", "may mai mag", "jun juin giu"),
@@ -55,10 +57,10 @@ class Shape:
     def words(self) -> str:
         """For what was understood."""
         if self.name == "day and month":
-            return "dates, day before month" if self.day_first else "dates, month before day"
+            return said("dates, day before month") if self.day_first else said("dates, month before day")
         if self.name == "clock":
-            return "clock times"
-        return "minutes and seconds" if self.name == "minutes" else "dates"
+            return said("clock times")
+        return said("minutes and seconds") if self.name == "minutes" else said("dates")
 
 
 def is_instant(cell: str) -> bool:

@@ -19,6 +19,7 @@ from simc_core.identification.reading.roles import ROLES, roles_of
 from simc_core.identification.reading.table import Table
 from simc_core.identification.reading.time_axis import TimeAxis, signals, time_axis
 from simc_core.identification.trend import Trend
+from simc_core.wording import counted, said
 
 FAR_AWAY = 100.0  # spans from zero: such a time is counted from its first row
 
@@ -72,8 +73,8 @@ def understand(
     axis = time_axis(found, told.get("time"), time_unit, period, day_first)
     understood = [*table.understood, *axis.said]
     if axis.columns and is_long(found):
-        found, axis, said = by_tags(found, axis)
-        understood = [*table.understood, *axis.said, said]
+        found, axis, in_words = by_tags(found, axis)
+        understood = [*table.understood, *axis.said, in_words]
         told = {role: _place(found, role, column) for role, column in (columns or {}).items() if role != "time"}
     candidates = signals(found, axis)
     roles = roles_of(found, candidates, {role: told[role] for role in ROLES if role in told})
@@ -106,7 +107,7 @@ def understand(
 
 def _place(columns: Sequence[Column], role: str, column: str | int | None) -> int | None:
     if role not in ("time", *ROLES):
-        raise DataError(f"columns may name time, PV, OP and SP, found {str(role)[:20]}")
+        raise DataError(said("columns may name time, PV, OP and SP, found {found}", found=str(role)[:20]))
     names = [each.name for each in columns]
     if column is None:
         return None
@@ -114,7 +115,14 @@ def _place(columns: Sequence[Column], role: str, column: str | int | None) -> in
         return names.index(column)
     if isinstance(column, int) and 0 <= column < len(names):
         return column
-    raise DataError(f"{role} must be one of the columns {', '.join(names)[:200]}, found {str(column)[:40]}")
+    raise DataError(
+        said(
+            "{role} must be one of the columns {columns}, found {found}",
+            role=role,
+            columns=", ".join(names)[:200],
+            found=str(column)[:40],
+        )
+    )
 
 
 def _moves(columns: Sequence[Column], at: int | None) -> bool:
@@ -126,20 +134,26 @@ def _moves(columns: Sequence[Column], at: int | None) -> bool:
 
 def _refusal(columns: Sequence[Column], axis: TimeAxis, at: Mapping[str, int | None]) -> str:
     if not axis.columns:
-        return "no column is time: tell how long it is from one row to the next, period=..."
-    if at["OP"] is None:
-        more = ""
-        if at["SP"] is not None:
-            more = (
-                "; or, since the set point moved, tell the controller, controller=..."
-                if _moves(columns, at["SP"])
-                else ". The set point never moves, so that OP cannot be computed from the controller either"
-            )
-        return (
-            "no column is the controller output (OP). A model tells how PV follows OP: log both, and SP, "
-            f"and repeat the test{more}"
+        return said(
+            "no column is time: tell how long it is from one row to the next{argument}", argument=", period=..."
         )
-    return ""
+    if at["OP"] is not None:
+        return ""
+    if at["SP"] is None:
+        return said(
+            "no column is the controller output (OP). A model tells how PV follows OP: log both, and SP, and repeat "
+            "the test"
+        )
+    if _moves(columns, at["SP"]):
+        return said(
+            "no column is the controller output (OP). A model tells how PV follows OP: log both, and SP, and repeat "
+            "the test; or, since the set point moved, tell the controller{argument}",
+            argument=", controller=...",
+        )
+    return said(
+        "no column is the controller output (OP). A model tells how PV follows OP: log both, and SP, and repeat the "
+        "test. The set point never moves, so that OP cannot be computed from the controller either"
+    )
 
 
 def _trend(
@@ -148,33 +162,39 @@ def _trend(
     """The trend, what was mended, and why there is none."""
     pv, op, sp = at["PV"], at["OP"], at["SP"]
     if pv is None or op is None:
-        return None, [], "PV and OP are needed"
-    said = [_lost(columns[i]) for i in (pv, op, sp) if i is not None and columns[i].bad]
+        return None, [], said("PV and OP are needed")
+    notes = [_lost(columns[i]) for i in (pv, op, sp) if i is not None and columns[i].bad]
     y, quality = columns[pv].values, _quality(columns, pv)
     if quality is not None:
         y = np.where(quality == 1, y, np.nan)
-        said.append(f"{int(np.sum(quality != 1))} values of bad quality left out.")
-    t_y, y, said_y = _series(axis, pv, y)
-    t_u, u, said_u = _series(axis, op, columns[op].values)
-    said += said_y + [each for each in said_u if each not in said_y]
+        lost = int(np.sum(quality != 1))
+        notes.append(counted("{n} value of bad quality left out.", "{n} values of bad quality left out.", lost))
+    t_y, y, of_y = _series(axis, pv, y)
+    t_u, u, of_u = _series(axis, op, columns[op].values)
+    notes += of_y + [each for each in of_u if each not in of_y]
     if t_y.size < 3 or t_u.size < 1:
-        return None, said, f"PV has {t_y.size} values and OP {t_u.size}: at least 3 are needed"
+        few = said("PV has {y} values and OP {u}: at least 3 are needed", y=t_y.size, u=t_u.size)
+        return None, notes, few
     shared = t_u.shape == t_y.shape and bool(np.array_equal(t_u, t_y))
-    keep, words = without_repeats(t_y, u if shared else None)
+    keep, repeated = without_repeats(t_y, u if shared else None)
     t_y, y = t_y[keep], y[keep]
-    said += [words] if words else []
+    notes += [repeated] if repeated else []
     if shared:
         t_u, u = t_u[keep], u[keep]
     else:
-        said.append(f"PV and OP have instants of their own: {t_y.size} and {t_u.size}; OP is held between its own.")
+        notes.append(
+            said(
+                "PV and OP have instants of their own: {y} and {u}; OP is held between its own.", y=t_y.size, u=t_u.size
+            )
+        )
     if first_is_rubbish(y):
-        said.append(f"The first PV, {y[0]:g}, is far from the next ones: left out.")
+        notes.append(said("The first PV, {y:g}, is far from the next ones: left out.", y=float(y[0])))
         t_y, y, shared = t_y[1:], y[1:], False
     begin = float(t_y[0])
     span = float(t_y[-1] - begin)
     if abs(begin) > FAR_AWAY * max(span, 1e-9):
         t_y, t_u = t_y - begin, t_u - begin
-        said.append("Time counts from the first row.")
+        notes.append(said("Time counts from the first row."))
     r = None
     if sp is not None:
         t_r, r_own, _ = _series(axis, sp, columns[sp].values)
@@ -187,8 +207,8 @@ def _trend(
     try:
         trend = Trend(t_y, y, u, r, None if shared else t_u, names=names, units={k: v for k, v in units.items() if v})
     except SimcError as error:
-        return None, said, str(error)
-    return trend, [*said, _sampling(trend)], ""
+        return None, notes, str(error)
+    return trend, [*notes, _sampling(trend)], ""
 
 
 def _series(
@@ -214,8 +234,14 @@ def _quality(columns: Sequence[Column], pv: int) -> NDArray[np.float64] | None:
 
 def _lost(column: Column) -> str:
     at, word = column.first_bad or (0, "")
-    cells = "1 cell is" if column.bad == 1 else f"{column.bad} cells are"
-    return f"{column.name}: {cells} no number and left out, the first in line {at}: {word}."
+    return counted(
+        "{column}: {n} cell is no number and left out, the first in line {line}: {word}.",
+        "{column}: {n} cells are no number and left out, the first in line {line}: {word}.",
+        column.bad,
+        column=column.name,
+        line=at,
+        word=word,
+    )
 
 
 def _sampling(trend: Trend) -> str:
@@ -223,9 +249,20 @@ def _sampling(trend: Trend) -> str:
     steps = steps[steps > 0]
     unit = trend.units.get("t", "")
     usual, low, high = (float(each) for each in (np.median(steps), steps.min(), steps.max()))
-    spread = (
-        f"every {usual:.4g} {unit}"
-        if high - low < 0.01 * usual
-        else f"every {usual:.4g} {unit} as a rule, {low:.3g} to {high:.4g}"
+    if high - low < 0.01 * usual:
+        return counted(
+            "{n} sample of PV, every {usual:.4g} {unit}.",
+            "{n} samples of PV, every {usual:.4g} {unit}.",
+            trend.t.size,
+            usual=usual,
+            unit=unit,
+        )
+    return counted(
+        "{n} sample of PV, every {usual:.4g} {unit} as a rule, {low:.3g} to {high:.4g}.",
+        "{n} samples of PV, every {usual:.4g} {unit} as a rule, {low:.3g} to {high:.4g}.",
+        trend.t.size,
+        usual=usual,
+        unit=unit,
+        low=low,
+        high=high,
     )
-    return f"{trend.t.size} samples of PV, {spread}."

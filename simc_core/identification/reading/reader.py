@@ -17,7 +17,14 @@ from simc_core.identification.reading.questions import Question
 from simc_core.identification.reading.table import Table
 from simc_core.identification.reading.workbook import is_workbook, rows_of_workbook
 from simc_core.identification.trend import Trend
+from simc_core.wording import said
 
+DECIMAL = {  # by the sign, and whether it is sure
+    (",", True): said("Decimal comma."),
+    (".", True): said("Decimal point."),
+    (",", False): said("Decimal comma, assumed."),
+    (".", False): said("Decimal point, assumed."),
+}
 SAMPLE = 2000  # rows that tell what a column is
 Line = TypeVar("Line")
 LAST = 60  # rows of which most are numbers, whatever stands above
@@ -95,19 +102,19 @@ def load(
 ) -> Table:
     """The columns of a file; parameters and errors as of `read_trend`."""
     if decimal not in (None, ",", "."):
-        raise DataError(f"decimal must be , or . found {decimal!r}")
+        raise DataError(said("decimal must be , or . found {found!r}", found=decimal))
     data = _content(source)
     if isinstance(data, bytes) and is_workbook(data):
-        rows, sheets, said = rows_of_workbook(data, sheet)
+        rows, sheets, in_words = rows_of_workbook(data, sheet)
         if decimal is None and not _has_decimal_commas(rows):
             decimal = "."
-        return _table(rows, iter, [said], decimal, day_first, sheets)
-    text, said = (data, "") if isinstance(data, str) else decoded(data, encoding)
+        return _table(rows, iter, [in_words], decimal, day_first, sheets)
+    text, encoded = (data, "") if isinstance(data, str) else decoded(data, encoding)
     lines = lines_of(text.removeprefix("\ufeff"))
-    sign, words = delimiter_of(lines, delimiter)
+    sign, separated = delimiter_of(lines, delimiter)
     if _names_delimiter(lines[0]):
         lines[0] = ""
-    understood = [each for each in (said, words) if each]
+    understood = [each for each in (encoded, separated) if each]
     return _table(lines, partial(cells_of, delimiter=sign), understood, decimal, day_first)
 
 
@@ -116,17 +123,25 @@ def _content(source: str | bytes | Path) -> str | bytes:
         return source
     if isinstance(source, str) and ("\n" in source or "\r" in source):
         if len(source) > MOST_BYTES:
-            raise DataError(f"a text may have at most {MOST_BYTES} characters, found {len(source)}")
+            raise DataError(
+                said("a text may have at most {most} characters, found {found}", most=MOST_BYTES, found=len(source))
+            )
         return source
     path = Path(source)
     try:
         if path.stat().st_size > MOST_BYTES:
             raise DataError(
-                f"a file may have at most {MOST_BYTES // 1_000_000} MB, found {path.stat().st_size / 1e6:.1f} MB"
+                said(
+                    "a file may have at most {most} MB, found {size:.1f} MB",
+                    most=MOST_BYTES // 1_000_000,
+                    size=path.stat().st_size / 1e6,
+                )
             )
         return path.read_bytes()
     except (OSError, ValueError):
-        raise DataError(f"there is no file {str(source)[:80]!r}; a text must have more than one line") from None
+        raise DataError(
+            said("there is no file {name!r}; a text must have more than one line", name=str(source)[:80])
+        ) from None
 
 
 def _names_delimiter(line: str) -> bool:
@@ -151,7 +166,7 @@ def _table(
     last = [row for row in cells(lines[-4 * LAST :]) if any(row)][-LAST:]
     width = width_of(last)
     if width > MOST_COLUMNS:
-        raise DataError(f"a trend may have at most {MOST_COLUMNS} columns, found {width}")
+        raise DataError(said("a trend may have at most {most} columns, found {found}", most=MOST_COLUMNS, found=width))
     header = header_of(head, last)
     understood.append(header.said)
     body = lines[header.first :]
@@ -159,10 +174,10 @@ def _table(
     questions = []
     sign, sure = (decimal, True) if decimal else decimal_sign(cell for row in sample for cell in row)
     if not sure:
-        text = "Numbers like 1,234 may have a decimal comma or separate thousands: what is the decimal sign?"
+        text = said("Numbers like 1,234 may have a decimal comma or separate thousands: what is the decimal sign?")
         questions.append(Question("decimal", text, (",", "."), sign))
     _refuse_twofold_commas(head, header.first, width, header.names)
-    understood.append(f"Decimal {'comma' if sign == ',' else 'point'}{'' if sure else ', assumed'}.")
+    understood.append(DECIMAL[sign, sure])
     found = read_columns(cells(body), sample, header.names, header.units, sign, day_first, header.first + 1)
     return Table(tuple(found), tuple(understood), tuple(questions), sheets)
 
@@ -172,7 +187,11 @@ def _refuse_twofold_commas(head: Sequence[Sequence[str]], first: int, width: int
     above = len([cell for cell in head[first - 1] if cell]) if 0 < first <= len(head) else 0
     if above > 1 and width == 2 * above and all(name.startswith("column") for name in names[above:]):
         raise DataError(
-            f"{above} names stand above {width} columns: the comma seems to be the decimal sign and the delimiter. "
-            "Export with semicolons or tabs",
+            said(
+                "{names} names stand above {columns} columns: the comma seems to be the decimal sign and the "
+                "delimiter. Export with semicolons or tabs",
+                names=above,
+                columns=width,
+            ),
             line=first,
         )

@@ -10,8 +10,14 @@ from numpy.typing import NDArray
 from simc_core.errors import DataError
 from simc_core.identification.reading.columns import QUALITY, Column
 from simc_core.identification.reading.questions import Question
+from simc_core.wording import said
 
 ROLES = ("PV", "OP", "SP")
+ASKED = {
+    "PV": said("Which column is the measurement (PV)?"),
+    "OP": said("Which column is the controller output (OP)?"),
+}
+NO_COLUMN = said("none", context="column of a file")
 WORDS = {  # the surest first
     "SP": (r"(^|[\W_])(sp|setpt|spt|soll\w*|consigna|consigne|target|reference|ref|w|r)($|[\W_\d])|set[ _]?point",),
     "OP": (
@@ -68,10 +74,9 @@ def roles_of(columns: Sequence[Column], candidates: Sequence[int], told: Mapping
         _mislabelled(found, columns, moves)
     _rivals(found, columns, free, told)
     if at["PV"] is None:
-        raise DataError("no column can be the measurement (PV): a trend needs time, PV and OP")
-    found.said.append(
-        "; ".join(f"{role}: {'none' if at[role] is None else columns[at[role] or 0].name}" for role in ROLES) + "."
-    )
+        raise DataError(said("no column can be the measurement (PV): a trend needs time, PV and OP"))
+    named = {role: NO_COLUMN if at[role] is None else columns[at[role] or 0].name for role in ROLES}
+    found.said.append(said("PV: {PV}; OP: {OP}; SP: {SP}.", **named))
     return found
 
 
@@ -84,7 +89,7 @@ def _find_pv(found: Roles, columns: Sequence[Column], free: Sequence[int]) -> No
     if len(likely) > 2 or (
         len(choices) == 2 and _smoothness(columns[choices[1]]) > 0.5 * _smoothness(columns[choices[0]])
     ):
-        found.questions.append(_question("PV", "is the measurement", columns, choices, likely[0]))
+        found.questions.append(_question("PV", columns, choices, likely[0]))
 
 
 def _find_op(found: Roles, columns: Sequence[Column], free: Sequence[int]) -> None:
@@ -93,7 +98,7 @@ def _find_op(found: Roles, columns: Sequence[Column], free: Sequence[int]) -> No
     likely = sorted((i for i in rest if _could_be_op(columns[i])), key=lambda i: _moving(columns[i].values))
     found.at["OP"] = likely[0] if likely else None
     if len(likely) > 1:
-        found.questions.append(_question("OP", "is the controller output", columns, likely, likely[0]))
+        found.questions.append(_question("OP", columns, likely, likely[0]))
 
 
 def _smoothness(column: Column) -> float:
@@ -104,9 +109,9 @@ def _smoothness(column: Column) -> float:
     return np.unique(good).size * (1.01 - float(np.abs(np.diff(good)).max()) / span)
 
 
-def _question(role: str, what: str, columns: Sequence[Column], choices: Sequence[int], assumed: int) -> Question:
+def _question(role: str, columns: Sequence[Column], choices: Sequence[int], assumed: int) -> Question:
     names = tuple(columns[i].name for i in dict.fromkeys(choices))
-    return Question(role, f"Which column {what} ({role})?", names, columns[assumed].name)
+    return Question(role, ASKED[role], names, columns[assumed].name)
 
 
 def _moving(values: NDArray[np.float64]) -> float:
@@ -166,21 +171,26 @@ def _mislabelled(found: Roles, columns: Sequence[Column], moves: Mapping[int, fl
     if not _looks_like_sp(columns[held], columns[pv]):
         return
     at |= {"SP": held, "PV": pv, "OP": op}
-    text = (
-        f"The names do not fit the numbers: {columns[SP].name} moves, {columns[held].name} is held. "
-        f"Which column is the measurement (PV)?"
+    text = said(
+        "The names do not fit the numbers: {moving} moves, {held} is held. Which column is the measurement (PV)?",
+        moving=columns[SP].name,
+        held=columns[held].name,
     )
     found.questions[:] = [each for each in found.questions if each.name not in ROLES]
     found.questions.append(Question("PV", text, tuple(columns[i].name for i in (pv, op, held)), columns[pv].name))
     found.mislabelled = True
-    units = " Units are left open." if any(columns[i].unit for i in (SP, OP, PV)) else ""
-    found.said.append(f"Names of SP, OP and PV do not fit the numbers: taken by the numbers.{units}")
+    if any(columns[i].unit for i in (SP, OP, PV)):
+        found.said.append(
+            said("Names of SP, OP and PV do not fit the numbers: taken by the numbers. Units are left open.")
+        )
+    else:
+        found.said.append(said("Names of SP, OP and PV do not fit the numbers: taken by the numbers."))
 
 
 def _rivals(found: Roles, columns: Sequence[Column], free: Sequence[int], told: Mapping[str, int | None]) -> None:
     """Other columns that could be OP or PV by their names."""
     asked = {question.name for question in found.questions}
-    for role, what in (("PV", "is the measurement"), ("OP", "is the controller output")):
+    for role in ASKED:
         chosen = found.at[role]
         if chosen is None or role in told or role in asked:
             continue
@@ -192,4 +202,4 @@ def _rivals(found: Roles, columns: Sequence[Column], free: Sequence[int], told: 
         if role == "OP":
             rivals = [i for i in rivals if _could_be_op(columns[i]) and _moving(columns[i].values) < MOVING]
         if rivals:
-            found.questions.append(_question(role, what, columns, [chosen, *rivals], chosen))
+            found.questions.append(_question(role, columns, [chosen, *rivals], chosen))

@@ -20,6 +20,7 @@ from simc_core.identification.reading.instants import (
     over_midnight,
 )
 from simc_core.identification.reading.questions import Question
+from simc_core.wording import Text, counted, joined, said
 
 NAMED = re.compile(
     r"(^|[\W_])(time|timestamp|zeit\w*|tiempo|temps|tempo|tid|t|date|datum|fecha|clock|uhrzeit|elapsed|seconds?|время|ts)"
@@ -27,6 +28,21 @@ NAMED = re.compile(
     re.IGNORECASE,
 )
 COUNTED = re.compile(r"(index|idx|no\.?|nr\.?|n|#|row|sample|count\w*|id|column 1|unnamed.*)", re.IGNORECASE)
+IN_UNIT = {
+    "s": said("in seconds"),
+    "min": said("in minutes"),
+    "h": said("in hours"),
+    "d": said("in days"),
+    "ms": said("in milliseconds"),
+    "us": said("in microseconds"),
+    "ns": said("in nanoseconds"),
+}
+SINCE_1970 = {
+    "s": said("seconds since 1970"),
+    "ms": said("milliseconds since 1970"),
+    "us": said("microseconds since 1970"),
+    "ns": said("nanoseconds since 1970"),
+}
 KEPT_UNITS = ("s", "min", "h")  # others become seconds
 LAST_DATE = 2e11  # seconds since 1970: in the year 8307
 RISING = 0.98  # of the steps of a column that is time
@@ -63,7 +79,13 @@ def time_axis(
     Raises DataError where no column is time and no period is told.
     """
     if time_unit is not None and time_unit not in UNIT_SECONDS:
-        raise DataError(f"time_unit must be one of {', '.join(UNIT_SECONDS)}, found {str(time_unit)[:20]}")
+        raise DataError(
+            said(
+                "time_unit must be one of {units}, found {found}",
+                units=", ".join(UNIT_SECONDS),
+                found=str(time_unit)[:20],
+            )
+        )
     if period is not None:
         return _by_period(columns, period, time_unit or "s")
     dates = [i for i, column in enumerate(columns) if column.kind == INSTANTS]
@@ -71,8 +93,8 @@ def time_axis(
         return _of_dates(columns, dates, day_first)
     found = [time] if time is not None else _numeric(columns)
     if not found:
-        question = Question("period", "No column is time: how long is it from one row to the next, in seconds?")
-        return TimeAxis({}, "s", set(), ["No column of time."], [question])
+        question = Question("period", said("No column is time: how long is it from one row to the next, in seconds?"))
+        return TimeAxis({}, "s", set(), [said("No column of time.")], [question])
     if columns[found[0]].kind == INSTANTS:
         return _of_dates(columns, found, day_first)
     return _of_numbers(columns, found, time_unit)
@@ -80,14 +102,19 @@ def time_axis(
 
 def _by_period(columns: Sequence[Column], period: float, unit: str) -> TimeAxis:
     if not (np.isfinite(period) and 1e-9 <= period <= 1e9):
-        raise DataError(f"period must be between 1e-9 and 1e9, found {period:g}")
+        raise DataError(said("period must be between 1e-9 and 1e9, found {period:g}", period=float(period)))
     values = period * np.arange(columns[0].values.size, dtype=np.float64)
     factor, unit = _in_kept_unit(unit)
-    return TimeAxis({-1: factor * values}, unit, set(), [f"Time counted by rows, {period:g} {unit} each, as told."])
+    return TimeAxis(
+        {-1: factor * values},
+        unit,
+        set(),
+        [said("Time counted by rows, {period:g} {unit} each, as told.", period=float(period), unit=unit)],
+    )
 
 
 def _of_dates(columns: Sequence[Column], dates: list[int], day_first: bool | None) -> TimeAxis:
-    said: list[str] = []
+    notes: list[str] = []
     questions: list[Question] = []
     axes: dict[int, NDArray[np.float64]] = {}
     used = set(dates)
@@ -97,31 +124,33 @@ def _of_dates(columns: Sequence[Column], dates: list[int], day_first: bool | Non
         if shape is None or i in skip:
             continue
         if shape.day_first is None and day_first is None and not questions:
-            text = "Dates may have the day or the month first: which?"
+            text = said("Dates may have the day or the month first: which?")
             questions.append(Question("day_first", text, ("day first", "month first"), "day first"))
         other = next((j for j in (i + 1, i - 1) if j in used and _is_clock(columns[j].shape)), None)
-        words = shape.words
+        parts: list[str] = [shape.words]
         if not shape.clock and not _is_clock(shape) and other is not None:
-            values, words = values + columns[other].values, f"{words} and clock times in two columns"
+            values += columns[other].values
+            parts = [said("{dates} and clock times in two columns", dates=shape.words)]
             skip.add(other)
         elif _is_clock(shape):
             values, nights = over_midnight(values)
-            words += f", over midnight {nights} times" if nights > 1 else ", over midnight once" if nights else ""
+            parts += [counted("over midnight once", "over midnight {n} times", nights)] if nights else []
         axes[i] = values
-        said.append(f"Time from {columns[i].name}: {words}{_begin(values, _is_clock(shape))}.")
-    return TimeAxis(axes, "s", used, said, questions)
+        parts += _begin(values, _is_clock(shape))
+        notes.append(said("Time from {column}: {what}.", column=columns[i].name, what=joined(parts, ", ")))
+    return TimeAxis(axes, "s", used, notes, questions)
 
 
 def _is_clock(shape: Shape | None) -> bool:
     return shape is not None and shape.name in ("clock", "minutes")
 
 
-def _begin(values: NDArray[np.float64], clock: bool) -> str:
+def _begin(values: NDArray[np.float64], clock: bool) -> list[Text]:
     good = values[np.isfinite(values)]
     if clock or good.size == 0 or abs(good[0]) > LAST_DATE:
-        return ""
+        return []
     first = datetime.datetime.fromtimestamp(float(good[0]), datetime.UTC)
-    return f", from {first:%Y-%m-%d %H:%M:%S}"
+    return [said("from {instant}", instant=f"{first:%Y-%m-%d %H:%M:%S}")]
 
 
 def _numeric(columns: Sequence[Column]) -> list[int]:
@@ -174,21 +203,31 @@ def _of_numbers(columns: Sequence[Column], found: list[int], time_unit: str | No
         factor, unit = EPOCHS[epoch], "s"
         axis = TimeAxis({first: factor * main.values}, unit, used)
         begin = _begin(axis.columns[first], clock=False)
-        axis.said.append(f"Time from {main.name}: {_full(epoch)} since 1970{begin}.")
+        what = joined([SINCE_1970[epoch], *begin], ", ")
+        axis.said.append(said("Time from {column}: {what}.", column=main.name, what=what))
         if first + 1 < len(columns) and _are_parts(main, columns[first + 1]):
             axis.columns[first] = axis.columns[first] + 1e-6 * columns[first + 1].values
             axis.used.add(first + 1)
-            axis.said.append(f"Microseconds in {columns[first + 1].name} added to it.")
+            axis.said.append(said("Microseconds in {column} added to it.", column=columns[first + 1].name))
         return axis
     if are_sheet_days(main.values) and time_unit is None:
-        said = f"Time from {main.name}: days of a spreadsheet."
-        return TimeAxis({first: 86400.0 * (main.values - 25569.0)}, "s", used, [said])
+        days = said("Time from {column}: days of a spreadsheet.", column=main.name)
+        return TimeAxis({first: 86400.0 * (main.values - 25569.0)}, "s", used, [days])
     told = time_unit or UNITS.get(main.unit.lower().rstrip("."), "") or UNITS.get(main.name.lower().rstrip("."), "")
     factor, unit = _in_kept_unit(told or "s")
-    said = f"Time from {main.name}, in {_full(told or 's')}" + (f", shown in {_full(unit)}." if factor != 1 else ".")
-    axis = TimeAxis({i: factor * columns[i].values for i in found}, unit, used, [said])
+    given = said("Time from {column}, {in_unit}.", column=main.name, in_unit=IN_UNIT[told or "s"])
+    if factor != 1:
+        given = said(
+            "Time from {column}, {in_unit}, shown {in_other}.",
+            column=main.name,
+            in_unit=IN_UNIT[told],
+            in_other=IN_UNIT[unit],
+        )
+    axis = TimeAxis({i: factor * columns[i].values for i in found}, unit, used, [given])
     if not told:
-        axis.questions.append(Question("time_unit", "The unit of time is not told.", ("s", "ms", "min", "h"), "s"))
+        axis.questions.append(
+            Question("time_unit", said("The unit of time is not told."), ("s", "ms", "min", "h"), "s")
+        )
     return axis
 
 
@@ -210,11 +249,6 @@ def _are_parts(main: Column, parts: Column) -> bool:
 
 def _in_kept_unit(unit: str) -> tuple[float, str]:
     return (1.0, unit) if unit in KEPT_UNITS else (UNIT_SECONDS[unit], "s")
-
-
-def _full(unit: str) -> str:
-    full = {"s": "seconds", "min": "minutes", "h": "hours", "d": "days"}
-    return full.get(unit) or {"ms": "milliseconds", "us": "microseconds", "ns": "nanoseconds"}[unit]
 
 
 def signals(columns: Sequence[Column], axis: TimeAxis) -> list[int]:

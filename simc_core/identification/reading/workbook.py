@@ -10,6 +10,7 @@ from typing import Any
 
 from simc_core.errors import DataError
 from simc_core.identification.reading.delimiter import MOST_COLUMNS, MOST_ROWS
+from simc_core.wording import counted, said
 
 ZIP, OLD = b"PK\x03\x04", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 MOST_UNPACKED = 400_000_000  # bytes of an xlsx once unpacked: 20 MB that become more are no trend
@@ -34,21 +35,37 @@ def rows_of_workbook(data: bytes, sheet: str | None = None) -> tuple[list[list[s
         book = calamine.CalamineWorkbook.from_filelike(io.BytesIO(data))
         sheets = {name: book.get_sheet_by_name(name) for name in book.sheet_names[:50]}
     except Exception as error:  # whatever a foreign file makes of a parser
-        raise DataError(f"the spreadsheet cannot be opened: {str(error)[:80]}. Save it as CSV") from None
+        raise DataError(
+            said("the spreadsheet cannot be opened: {error}. Save it as CSV", error=str(error)[:80])
+        ) from None
     if sheet is not None and sheet not in sheets:
-        raise DataError(f"sheet must be one of {', '.join(sheets)}, found {sheet[:40]}")
+        raise DataError(
+            said("sheet must be one of {sheets}, found {found}", sheets=", ".join(sheets), found=sheet[:40])
+        )
     name = sheet if sheet is not None else max(sheets, key=lambda each: sheets[each].height * sheets[each].width)
     chosen = sheets[name]
     if chosen.total_height > MOST_ROWS or chosen.width > MOST_COLUMNS:
         raise DataError(
-            f"a sheet may have at most {MOST_ROWS} rows and {MOST_COLUMNS} columns, "
-            f"found {chosen.total_height} and {chosen.width}"
+            said(
+                "a sheet may have at most {rows} rows and {columns} columns, found {found_rows} and {found_columns}",
+                rows=MOST_ROWS,
+                columns=MOST_COLUMNS,
+                found_rows=chosen.total_height,
+                found_columns=chosen.width,
+            )
         )
     rows = [[_text(cell) for cell in row] for row in chosen.to_python(skip_empty_area=True)]
     if not rows:
-        raise DataError(f"sheet {name} is empty")
-    others = f", one of {len(sheets)} sheets" if len(sheets) > 1 else ""
-    return rows, tuple(sheets), f"Spreadsheet, sheet {name}{others}."
+        raise DataError(said("sheet {name} is empty", name=name))
+    if len(sheets) == 1:
+        return rows, tuple(sheets), said("Spreadsheet, sheet {name}.", name=name)
+    found = counted(
+        "Spreadsheet, sheet {name}, one of {n} sheet.",
+        "Spreadsheet, sheet {name}, one of {n} sheets.",
+        len(sheets),
+        name=name,
+    )
+    return rows, tuple(sheets), found
 
 
 def _library() -> ModuleType:
@@ -56,7 +73,7 @@ def _library() -> ModuleType:
         return importlib.import_module("python_calamine")
     except ImportError:
         raise DataError(
-            "spreadsheets need python-calamine: pip install 'simc[data]', or save the file as CSV"
+            said("spreadsheets need python-calamine: pip install 'simc[data]', or save the file as CSV")
         ) from None
 
 
@@ -66,9 +83,15 @@ def _require_small(data: bytes) -> None:
     try:
         unpacked = sum(part.file_size for part in zipfile.ZipFile(io.BytesIO(data)).infolist())
     except (zipfile.BadZipFile, ValueError):
-        raise DataError("the spreadsheet cannot be opened: it is damaged, or no spreadsheet") from None
+        raise DataError(said("the spreadsheet cannot be opened: it is damaged, or no spreadsheet")) from None
     if unpacked > MOST_UNPACKED:
-        raise DataError(f"a spreadsheet may unpack to {MOST_UNPACKED // 1_000_000} MB, found {unpacked / 1e6:.0f} MB")
+        raise DataError(
+            said(
+                "a spreadsheet may unpack to {most} MB, found {size:.0f} MB",
+                most=MOST_UNPACKED // 1_000_000,
+                size=unpacked / 1e6,
+            )
+        )
 
 
 def _text(cell: Any) -> str:
