@@ -6,6 +6,7 @@ import io
 from simc_core.errors import InvalidParameter
 from simc_core.identification.reading.decode import MOST_BYTES, decoded
 from simc_core.identification.reading.workbook import is_workbook, rows_of_workbook
+from simc_core.wording import said
 
 MOST_COLUMNS = 200
 SEPARATORS = ";\t,|"
@@ -20,13 +21,25 @@ def cells_of(content: bytes) -> Cells:
     Raises InvalidParameter: nothing in it, or too much; DataError: no text, or a spreadsheet that cannot be opened.
     """
     if not content.strip():
-        raise InvalidParameter("the file must hold a list of loops, found nothing in it")
+        raise InvalidParameter(said("the file must hold a list of loops, found nothing in it"))
     if len(content) > MOST_BYTES:
-        raise InvalidParameter(f"a list may have at most {MOST_BYTES} bytes, found {len(content)}: split it")
+        raise InvalidParameter(
+            said(
+                "a list may have at most {most_bytes} bytes, found {size}: split it",
+                most_bytes=MOST_BYTES,
+                size=len(content),
+            )
+        )
     found = rows_of_workbook(content)[0] if is_workbook(content) else _csv(decoded(content)[0])
     widest = max((len(row) for row in found), default=0)
     if widest > MOST_COLUMNS:
-        raise InvalidParameter(f"a list may have at most {MOST_COLUMNS} columns, found {widest}")
+        raise InvalidParameter(
+            said(
+                "a list may have at most {most_columns} columns, found {widest}",
+                most_columns=MOST_COLUMNS,
+                widest=widest,
+            )
+        )
     return found
 
 
@@ -36,7 +49,9 @@ def _csv(text: str) -> Cells:
     try:
         return [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=separator)]
     except csv.Error as error:
-        raise InvalidParameter(f"the file must be a table of text, found a cell that is none: {error}") from error
+        raise InvalidParameter(
+            said("the file must be a table of text, found a cell that is none: {error}", error=str(error))
+        ) from error
 
 
 def _separator(text: str) -> str:

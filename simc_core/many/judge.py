@@ -5,10 +5,11 @@ from collections.abc import Sequence
 from simc_core.certificate.verdict import Stability, stability_many
 from simc_core.errors import SimcError
 from simc_core.loops.loop import Loop
-from simc_core.many.result import Judged, said
+from simc_core.many.result import Judged, told
 from simc_core.metrics.performance import Performance, performance_many
 from simc_core.sensitivity.margins import margins_many
 from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.wording import said
 
 Performed = Performance | SimcError
 
@@ -27,7 +28,7 @@ def judge(loops: Sequence[Loop]) -> list[Judged | Exception]:
 def _judged(loop: Loop, found: Margins, performed: Performed | Exception | None) -> Judged:
     if isinstance(performed, Performance):
         return Judged(loop.controller, found, performed)
-    why_not = "the loop is not stable" if performed is None else said(performed)
+    why_not = said("the loop is not stable") if performed is None else told(performed)
     return Judged(loop.controller, found, None, why_not)
 
 

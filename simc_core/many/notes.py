@@ -21,6 +21,7 @@ from simc_core.studies.advice import (
 )
 from simc_core.studies.own_settings import advice_on_settings, no_filter
 from simc_core.studies.tuned import USUAL, Tuned
+from simc_core.wording import said
 
 Guard = Callable[[Tuned], Advice | None]
 GUARDS: tuple[Guard, ...] = (not_stable, large_Ms, other_than_chosen, oscillating_plant)
@@ -45,14 +46,14 @@ def on_any(plant: Plant, made: Judged) -> tuple[Advice, ...]:
 
 def on_present(plant: Plant, made: Judged) -> tuple[Advice, ...]:
     """On the settings that are in the controller now."""
-    return tuple(replace(item, quantity=item.quantity + NOW) for item in on_any(plant, made))
+    return tuple(replace(item, quantity=NOW.put(quantity=item.quantity)) for item in on_any(plant, made))
 
 
 def _no_error(made: Judged) -> Advice | None:
     """Why there is no IAE of a stable loop."""
     if not made.margins.stable or not made.why_not:
         return None
-    return Advice("note", "No IAE", f"{made.why_not[0].upper()}{made.why_not[1:]}.")
+    return Advice("note", said("No IAE"), said("{why}.", why=made.why_not))
 
 
 def gravest_first(found: Iterable[Advice]) -> tuple[Advice, ...]:

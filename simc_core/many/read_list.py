@@ -11,6 +11,7 @@ from pathlib import Path
 from simc_core.errors import InvalidParameter
 from simc_core.many.cells import Cells, cells_of
 from simc_core.many.columns import BY_NAME, COLUMNS
+from simc_core.wording import Text, joined, said
 
 MOST_ROWS = 1_000_000
 ENOUGH = ("plant", "k", "k_prime")  # one of them a list must have
@@ -86,16 +87,18 @@ def read_list(source: str | Path | bytes, most: int = MOST_ROWS) -> LoopList:
         first += 1
     body = [(i + 1, row) for i, row in enumerate(cells[first:], first) if any(row)]
     if len(body) > most:
-        raise InvalidParameter(f"a list may have at most {most} rows here, found {len(body)}: split it")
+        raise InvalidParameter(
+            said("a list may have at most {most} rows here, found {given}: split it", most=most, given=len(body))
+        )
     if not body:
-        raise InvalidParameter("the list must have a row below its headings, found none")
-    notes = []
+        raise InvalidParameter(said("the list must have a row below its headings, found none"))
+    notes: list[Text] = []
     if _decimal_commas(body, names):
         body = [(i, _with_points(row, names)) for i, row in body]
-        notes.append("commas are decimal in this file")
+        notes.append(said("commas are decimal in this file"))
     time_unit = _time_unit(units)
     if time_unit:
-        notes.append(f"times are in {time_unit}")
+        notes.append(said("times are in {time_unit}", time_unit=time_unit))
     return LoopList(
         [_row(i, row, names, time_unit) for i, row in body],
         dict(zip(_headings(cells[head]), names, strict=True)),
@@ -109,9 +112,19 @@ def _head(cells: Cells) -> int:
         if set(ENOUGH) & set(_understood(row)):
             return i
     seen = next((row for row in cells if any(row)), [])
+    headings = ", ".join(_headings(seen))[:200]
+    if not headings:
+        raise InvalidParameter(
+            said(
+                "the list must have a column plant, or k, theta and tau1, or k_prime and theta, found the headings none"
+            )
+        )
     raise InvalidParameter(
-        "the list must have a column plant, or k, theta and tau1, or k_prime and theta, found the headings "
-        f"{', '.join(_headings(seen))[:200] or 'none'}"
+        said(
+            "the list must have a column plant, or k, theta and tau1, or k_prime and theta, found the headings "
+            "{headings}",
+            headings=headings,
+        )
     )
 
 
@@ -167,8 +180,10 @@ def _time_unit(units: Mapping[str, str]) -> str:
     told = {name: _bare(units[name]) for name in TIMES if units.get(name)}
     known = {TIME_UNITS.get(unit, "") for unit in told.values()}
     if len(known) > 1 or known == {""}:
-        each = ", ".join(f"{name} in {unit[:20]}" for name, unit in told.items())
-        raise InvalidParameter(f"all times of a list must be in s, or all in min, found {each}: convert them")
+        each = joined(said("{name} in {unit}", name=name, unit=unit[:20]) for name, unit in told.items())
+        raise InvalidParameter(
+            said("all times of a list must be in s, or all in min, found {each}: convert them", each=each)
+        )
     return next(iter(known), "")
 
 

@@ -16,6 +16,7 @@ from simc_core.many.results_csv import BETWEEN, SOUND
 from simc_core.notation import number
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.bands import exceeds
+from simc_core.wording import Text, counted, joined, said
 
 Line = Mapping[str, str]
 
@@ -23,9 +24,9 @@ STYLE = Path(__file__).with_name("report.css").read_text(encoding="utf-8")
 MOST_LINES, MOST_SHEETS, MOST_DRAWN = 20_000, 2_000, 300
 WORTH = 1.5  # load IAE now over new, from which it is told
 IN_SUMMARY = {
-    "not stable": "not stable now",
-    "fragile": f"fragile now (Ms above {LARGEST_MS:g})",
-    "slow oscillation": "oscillating slowly now",
+    "not stable": said("{n} not stable now", n=0),
+    "fragile": said("{n} fragile now (Ms above {limit:g})", n=0, limit=LARGEST_MS),
+    "slow oscillation": said("{n} oscillating slowly now", n=0),
 }
 TONES = {"not stable": "alarm", "fragile": "alarm", "slow oscillation": "attention"}
 SETTINGS = {"Kc": "Kc", "tau_I": "τI", "tau_D": "τD", "tau_F": "τF", "K_I": "K_I"}
@@ -89,19 +90,23 @@ def report(lines: Iterable[Line], title: str = "Many loops") -> str:
     )
 
 
-def summary(lines: Sequence[Line]) -> str:
+def summary(lines: Sequence[Line]) -> Text:
     """How many loops there are, and how many of them need what."""
     refused = sum(bool(line["refusal"]) for line in lines)
-    parts = [f"{len(lines)} loops, {len(lines) - refused} tuned"]
+    parts = [
+        counted("{n} loop, {tuned} tuned", "{n} loops, {tuned} tuned", len(lines), tuned=len(lines) - refused),
+    ]
     if refused:
-        parts.append(f"{refused} refused")
-    for trouble, words in IN_SUMMARY.items():
-        if count := sum(line["now"] == trouble for line in lines):
-            parts.append(f"{count} {words}")
+        parts.append(said("{n} refused", n=refused))
+    for trouble, told in IN_SUMMARY.items():
+        if n := sum(line["now"] == trouble for line in lines):
+            parts.append(told.put(n=n))
     faster = sum(line["now"] == SOUND and _float(line["load_ratio"]) >= WORTH for line in lines)
     if faster:
-        parts.append(f"{faster} sound now whose load IAE becomes at least {WORTH:g} times smaller")
-    return ", ".join(parts) + "."
+        parts.append(
+            said("{n} sound now whose load IAE becomes at least {ratio:g} times smaller", n=faster, ratio=WORTH)
+        )
+    return joined((joined(parts), "."), "")
 
 
 def _list(lines: Sequence[Line]) -> str:

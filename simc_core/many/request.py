@@ -14,6 +14,7 @@ from simc_core.errors import InvalidParameter, SimcError
 from simc_core.numbers import read_number
 from simc_core.plants.parse import parse_plant
 from simc_core.plants.plant import Plant
+from simc_core.wording import joined, said
 
 LONGEST_CELL = 2000  # characters of a plant
 LONGEST_WORD = 100  # of any other cell
@@ -65,9 +66,13 @@ def read_request(row: Mapping[str, Any]) -> Request:
     """
     tau_c, Ms, ratio = number(row, "tau_c"), number(row, "Ms"), number(row, "filter")
     if tau_c is not None and Ms is not None:
-        raise InvalidParameter(f"tau_c and Ms are both given ({tau_c:g}, {Ms:g}): leave one of them empty")
+        raise InvalidParameter(
+            said("tau_c and Ms are both given ({tau_c:g}, {Ms:g}): leave one of them empty", tau_c=tau_c, Ms=Ms)
+        )
     if Ms is not None and ratio is not None:
-        raise InvalidParameter("filter and Ms are both given: with Ms the filter is tau_F = 0.1 theta, leave it empty")
+        raise InvalidParameter(
+            said("filter and Ms are both given: with Ms the filter is tau_F = 0.1 theta, leave it empty")
+        )
     present, why = None, ""
     try:
         present = _present(row)
@@ -97,7 +102,14 @@ def word(row: Mapping[str, Any], name: str) -> str:
     text = str(value).strip()
     longest = LONGEST_CELL if name == "plant" else LONGEST_WORD
     if len(text) > longest:
-        raise InvalidParameter(f"{name} may have at most {longest} characters, found {len(text)}")
+        raise InvalidParameter(
+            said(
+                "{name} may have at most {longest} characters, found {found}",
+                name=name,
+                longest=longest,
+                found=len(text),
+            )
+        )
     return text
 
 
@@ -109,7 +121,7 @@ def number(row: Mapping[str, Any], name: str) -> float | None:
     if isinstance(value, str):
         return read_number(name, value)
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise InvalidParameter(f"{name} must be a number, found {type(value).__name__}")
+        raise InvalidParameter(said("{name} must be a number, found {what}", name=name, what=type(value).__name__))
     return float(value)
 
 
@@ -119,7 +131,14 @@ def one_of(row: Mapping[str, Any], name: str, choices: tuple[str, ...]) -> str:
     for choice in choices:
         if text.lower() in (choice.lower(), ""):
             return choice
-    raise InvalidParameter(f"{name} must be {' or '.join(choices)}, found {text[:20]!r}")
+    raise InvalidParameter(
+        said(
+            "{name} must be {choices}, found {given!r}",
+            name=name,
+            choices=joined(choices, said(" or ")),
+            given=text[:20],
+        )
+    )
 
 
 def _empty(value: Any) -> bool:
@@ -136,22 +155,36 @@ def _plant(row: Mapping[str, Any]) -> Plant:
     given = {name: value for name in MODEL if (value := number(row, name)) is not None}
     if text:
         if given:
-            raise InvalidParameter(f"plant and {', '.join(given)} are both given: leave one of them empty")
+            raise InvalidParameter(
+                said("plant and {given} are both given: leave one of them empty", given=", ".join(given))
+            )
         return parse_plant(text)
     if "k_prime" in given:
         if "k" in given or "tau1" in given:
-            raise InvalidParameter("k_prime is given beside k or tau1: an integrating process has k_prime, theta, tau2")
+            raise InvalidParameter(
+                said("k_prime is given beside k or tau1: an integrating process has k_prime, theta, tau2")
+            )
         needed: tuple[str, ...] = ("k_prime", "theta")
     else:
         needed = ("k", "theta", "tau1")
     missing = [name for name in needed if name not in given]
     if missing:
         if not given:
-            raise InvalidParameter("plant must be given, as a transfer function or by k, theta and tau1, found nothing")
-        raise InvalidParameter(f"{missing[0]} must be given beside {', '.join(given)} (0 where there is none)")
+            raise InvalidParameter(
+                said("plant must be given, as a transfer function or by k, theta and tau1, found nothing")
+            )
+        raise InvalidParameter(
+            said("{name} must be given beside {given} (0 where there is none)", name=missing[0], given=", ".join(given))
+        )
     for name in ("tau1", "tau2"):
         if given.get(name, 0.0) < 0:
-            raise InvalidParameter(f"{name} must be >= 0, found {given[name]:g}: write an unstable plant as text")
+            raise InvalidParameter(
+                said(
+                    "{name} must be >= 0, found {value:g}: write an unstable plant as text",
+                    name=name,
+                    value=given[name],
+                )
+            )
     lags = tuple(given[name] for name in ("tau1", "tau2") if given.get(name))
     if "k_prime" in given:
         return Plant(given["k_prime"], given["theta"], lags, integrators=1)
@@ -166,12 +199,18 @@ def _present(row: Mapping[str, Any]) -> Controller | None:
         return None
     form, tau_F = one_of(row, "form", ("ideal", *(form for form in FORMS if form != "ideal"))), number(row, "tau_F")
     if gains and times:
-        raise InvalidParameter(f"{', '.join(gains)} and {', '.join(times)} are both given: leave one group empty")
+        raise InvalidParameter(
+            said(
+                "{gains} and {times} are both given: leave one group empty",
+                gains=", ".join(gains),
+                times=", ".join(times),
+            )
+        )
     if gains:
         return ParallelPid(gains.get("Kp", 0.0), gains.get("Ki", 0.0), gains.get("Kd", 0.0), tau_F or 0.0)
     if form == "parallel":
-        raise InvalidParameter(f"a parallel form has Kp, Ki and Kd, found {', '.join(times)}")
+        raise InvalidParameter(said("a parallel form has Kp, Ki and Kd, found {times}", times=", ".join(times)))
     if "Kc" not in times:
-        raise InvalidParameter(f"Kc must be given beside {', '.join(times)}")
+        raise InvalidParameter(said("Kc must be given beside {times}", times=", ".join(times)))
     make = SeriesPid if form == "series" else IdealPid
     return make(times["Kc"], times.get("tau_I") or math.inf, times.get("tau_D", 0.0), tau_F or 0.0)

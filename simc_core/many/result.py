@@ -17,6 +17,7 @@ from simc_core.sensitivity.margins_of_response import Margins
 from simc_core.studies.advice import Advice
 from simc_core.studies.bands import exceeds
 from simc_core.studies.own_settings import DAMPING
+from simc_core.wording import said
 
 LONGEST_REFUSAL = 600  # characters
 
@@ -124,21 +125,21 @@ class Result:
         return "slow oscillation" if any(each.quantity == SLOW for each in self.advice) else ""
 
 
-NOW = " now"  # behind the name of a quantity: of the present settings
-SLOW = DAMPING + NOW
+NOW = said("{quantity} now", quantity="")  # of the present settings
+SLOW = NOW.put(quantity=DAMPING)
 TROUBLES = ("not stable", "fragile", "slow oscillation", "")
 
 
 def refused(row: Mapping[str, Any], error: BaseException | str) -> Result:
     """A row without settings."""
-    return Result(row, refusal=said(error))
+    return Result(row, refusal=told(error))
 
 
-def said(error: BaseException | str) -> str:
+def told(error: BaseException | str) -> str:
     """An error in words. What is no refusal is a fault of this program, or of a tune of one's own."""
     text = str(error)
     if isinstance(error, BaseException) and not isinstance(error, SimcError):
-        text = f"a fault of this program, not of the row: {_named(error)}"
+        text = said("a fault of this program, not of the row: {error}", error=_named(error))
     return text if len(text) <= LONGEST_REFUSAL else text[: LONGEST_REFUSAL - 3] + "..."
 
 

@@ -27,6 +27,7 @@ from simc_core.plants.models import (
     UnstableDelay,
 )
 from simc_core.sensitivity.margins_of_response import Margins
+from simc_core.wording import Numeral, Text, joined, said
 
 HEAD = (
     *("row", "tag", "refusal", "plant", "form", "Kc", "tau_I", "tau_D", "tau_F", "K_I"),
@@ -100,12 +101,15 @@ def asked(row: Mapping[str, Any], how: str) -> str:
     return f"x{zlib.crc32(repr((told, how)).encode(errors='replace')):08x}"
 
 
-def typed_text(result: Result) -> str:
+def typed_text(result: Result) -> Text:
     """What is typed into the box, on one line."""
     if result.typed is None:
-        return ""
-    values = result.typed.values.items()
-    return "; ".join(f"{name} = {value if isinstance(value, str) else format(value, '.10g')}" for name, value in values)
+        return joined(())
+    shown = (
+        (name, value if isinstance(value, str) else Numeral(f"{value:.10g}"))
+        for name, value in result.typed.values.items()
+    )
+    return joined((joined(each, " = ") for each in shown), "; ")
 
 
 def as_csv(results: Iterable[Result]) -> str:
@@ -162,7 +166,10 @@ class ResultsFile:
         whole = content[: content.rfind(b"\n") + 1]
         if not whole.startswith(head.encode()):
             raise InvalidParameter(
-                f"{self.path} must be a file of results of this program, found another: move it, or take another folder"
+                said(
+                    "{path} must be a file of results of this program, found another: move it, or take another folder",
+                    path=self.path,
+                )
             )
         if whole != content:
             self.path.write_bytes(whole)

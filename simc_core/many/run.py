@@ -19,6 +19,7 @@ from simc_core.many.processes import Processes
 from simc_core.many.result import Result, refused
 from simc_core.many.tune_rows import MOST_ROWS, tune_chunk
 from simc_core.many.worker import TookTooLong, Worker, WorkerGone
+from simc_core.wording import said
 
 ON_THEIR_WAY = 8  # chunks given to workers and not yet fetched, at least; two a worker where there are more
 
@@ -76,7 +77,7 @@ def tune_many(
         return _submitted(chunks, executor, tune)
     if hasattr(executor, "map"):
         return _flat(executor.map(partial(_here, tune), chunks))
-    raise WrongType(f"executor must have submit or map, found {type(executor).__name__}")
+    raise WrongType(said("executor must have submit or map, found {what}", what=type(executor).__name__))
 
 
 def _chunks(rows: Iterable[Row], size: int) -> Iterator[list[Row]]:

@@ -12,7 +12,7 @@ from simc_core.loops.loop import Loop
 from simc_core.many import notes
 from simc_core.many.judge import judge
 from simc_core.many.request import Request, read_request
-from simc_core.many.result import Judged, Result, refused, said
+from simc_core.many.result import Judged, Result, refused, told
 from simc_core.plants.models import Model
 from simc_core.reduction.half_rule import reduced_model
 from simc_core.rules.simc import simc
@@ -20,6 +20,7 @@ from simc_core.rules.speed import tau_c_in_use
 from simc_core.studies.advice import Advice
 from simc_core.studies.equal_robustness import at_equal_robustness
 from simc_core.studies.tune import tune
+from simc_core.wording import said
 
 MOST_ROWS = 1000  # of one chunk: a second; with fewer, too few loops have the same structure
 
@@ -94,7 +95,11 @@ def tune_chunk(rows: Sequence[Mapping[str, Any]]) -> list[Result]:
     [4.0, 2.0]
     """
     if len(rows) > MOST_ROWS:
-        raise InvalidParameter(f"a chunk may have at most {MOST_ROWS} rows, found {len(rows)}: use tune_many")
+        raise InvalidParameter(
+            said(
+                "a chunk may have at most {most_rows} rows, found {n}: use tune_many", most_rows=MOST_ROWS, n=len(rows)
+            )
+        )
     designs = [_designed(row) for row in rows]
     loops = [_loops(design) for design in designs]
     judged = iter(judge(list(chain.from_iterable(loops))))
@@ -118,7 +123,11 @@ def _with_controller(request: Request) -> _Design:
         found = at_equal_robustness(request.rule, plant, kind, request.Ms).controller
         if found is None:
             raise InvalidParameter(
-                f"Ms = {request.Ms:g} cannot be met by the rule {request.rule}: ask for another Ms, or leave it empty"
+                said(
+                    "Ms = {Ms:g} cannot be met by the rule {rule}: ask for another Ms, or leave it empty",
+                    Ms=request.Ms,
+                    rule=request.rule,
+                )
             )
         return _Design(request, found)
     if request.rule != "simc":
@@ -165,10 +174,10 @@ def _told(row: Mapping[str, Any], design: _Design, made: Judged, now: Judged | E
             typed = to_box(controller, request.box, *spans, time_unit=request.time_unit, rounded=True)
             result = replace(result, typed=typed)
         except SimcError as error:
-            advice += (Advice("error", "box", f"{said(error)}."),)
-    why_not = request.present_refusal or (said(now) if isinstance(now, Exception) else "")
+            advice += (Advice("error", said("box"), said("{why}.", why=told(error))),)
+    why_not = request.present_refusal or (told(now) if isinstance(now, Exception) else "")
     if why_not:
-        advice += (Advice("error", "settings now", f"{why_not}."),)
+        advice += (Advice("error", said("settings now"), said("{why}.", why=why_not)),)
     advice = notes.gravest_first(advice)
     if isinstance(now, Judged):
         result = replace(result, present=now)

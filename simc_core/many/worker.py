@@ -11,6 +11,8 @@ from collections.abc import Callable
 from threading import Event, Timer
 from typing import Any
 
+from simc_core.wording import said
+
 READY = b"ready"  # said once, when everything is loaded
 
 
@@ -61,7 +63,7 @@ class Worker:
             good, answer = pickle.load(process.stdout)
         except (EOFError, OSError, pickle.UnpicklingError) as error:
             self.end()
-            raise (TookTooLong if over.is_set() else WorkerGone)("its process ended without an answer") from error
+            raise (TookTooLong if over.is_set() else WorkerGone)(said("its process ended without an answer")) from error
         finally:
             if timer is not None:
                 timer.cancel()

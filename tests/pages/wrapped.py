@@ -12,6 +12,7 @@ from pages.common.session import state
 from pages.common.take_home.written import LANGUAGES
 from pages.common.words import catalogues
 from simc_core import BOXES
+from simc_core.many.columns import COLUMNS
 from simc_core.published.sources import SOURCES
 from simc_core.wording import Text
 
@@ -26,6 +27,7 @@ NOT_SEEN = {  # fields of Streamlit's messages that hold names, addresses and co
     *("mime_type"),
 }
 FOREIGN = {"text", "mine", "known", "file"}
+HEADINGS = {column.name for column in COLUMNS}  # of lists of loops, as they stand in files
 FORMULAS = {  # as code, and typed numbers, which every language writes with points
     "2.2 exp(-20s)/(180s+1)",
     "Time\tPV\tOP\n0\t20.5\t40\n1\t20.5\t45",
@@ -113,7 +115,7 @@ def left_in_english(app: AppTest) -> list[str]:
     """What the page shows outside brackets, but for symbols, numbers, foreign text, formulas, names of languages."""
     found = []
     for place, text in visible(app):
-        known = text in FORMULAS or text in catalogues.OFFERED.values() or NAME_OF_LOOP.fullmatch(text)
+        known = text in FORMULAS | HEADINGS or text in catalogues.OFFERED.values() or NAME_OF_LOOP.fullmatch(text)
         bare = "" if known else outside(text)
         if any(word not in SYMBOLS for word in WORD.findall(bare)) or re.search(r"\d\.\d", bare):
             found.append(f"{place}: {text}")

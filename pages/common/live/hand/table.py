@@ -142,7 +142,7 @@ def setup(
         "t": grid.t.tolist(),
         "omega": grid.omega.tolist(),
         **judgement(CELLS),
-        "pins": [{"name": letter} for letter, _ in behind],
+        "pins": [{"name": translated(letter)} for letter, _ in behind],
         **(more or {}),
     }
     y, u, *_ = responses(present.loop, grid)

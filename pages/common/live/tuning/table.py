@@ -192,7 +192,7 @@ def table(subject: Subject, grid: Grid, pins: Sequence[tuple[str, Study]], name:
         "presets": [
             (translated(name), tau_c) for name, tau_c in presets_of(subject.tuning.rule, subject.model).items()
         ],
-        "pins": [{"name": letter, "metrics": figures(judged(each, grid.omega))} for letter, each in pins],
+        "pins": [{"name": translated(letter), "metrics": figures(judged(each, grid.omega))} for letter, each in pins],
     }
     blocks = curves(found, grid)
     for field in ("y", "u"):
