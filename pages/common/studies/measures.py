@@ -37,7 +37,7 @@ class Measured:
     @property
     def _steps(self) -> Performance:
         if self.performance is None:
-            raise NotStable("the loop does not come to rest")
+            raise NotStable(said("the loop does not come to rest"))
         return self.performance
 
 
