@@ -6,6 +6,8 @@ import { test } from "node:test";
 import { marginsOf } from "../../pages/common/live/cascade/loops.js";
 import { nearest, round, text } from "../../pages/common/live/kit/format.js";
 import { crowded, typeFor } from "../../pages/common/live/kit/lecture.js";
+import { letters } from "../../pages/common/live/kit/letters.js";
+import { mount } from "../../pages/common/live/kit/mount.js";
 import { namesOf } from "../../pages/common/live/kit/names.js";
 import { seen } from "../../pages/common/live/kit/overlay.js";
 import { logTicks, square } from "../../pages/common/live/kit/panel.js";
@@ -160,3 +162,42 @@ test("a pinned curve is named where it is farthest from the others, and stays na
     "at their ends",
   );
 });
+
+test("an instrument that is called again before it is told that it is over stays, with what it has heard", async () => {
+  globalThis.document = { createElement: () => ({ remove() {} }), body: { prepend() {} } };
+  globalThis.addEventListener = globalThis.removeEventListener = () => {};
+  const begun = [];
+  const makes = mount("test", (root) => {
+    const one = { root, heard: [], left: 0, take: (message) => one.heard.push(message.kind), leave: () => one.left++ };
+    begun.push(one);
+    return one;
+  });
+  const page = { querySelector: () => page.live, live: {} };
+  const data = packed({ kind: "table", blocks: [] });
+  const turns = () => new Promise((done) => setTimeout(done, 5));
+  const first = makes({ parentElement: page, data, setTriggerValue() {} });
+  first(); // Streamlit: other data came while the script was loaded
+  const second = makes({ parentElement: page, data, setTriggerValue() {} });
+  await turns();
+  assert.equal(begun.length, 1);
+  assert.equal(begun[0].left, 0);
+  letters("test").open({ kind: "exact" });
+  assert.deepEqual(begun[0].heard, ["table", "table", "exact"]);
+  second();
+  await turns();
+  assert.equal(begun[0].left, 1);
+  assert.equal(letters("test").open, null);
+  makes({ parentElement: page, data, setTriggerValue() {} }); // and back
+  assert.equal(begun.length, 1);
+  page.live = {}; // its HTML is set anew
+  makes({ parentElement: page, data, setTriggerValue() {} });
+  assert.deepEqual([begun.length, begun[0].left], [2, 2]);
+});
+
+function packed(header) {
+  const text = new TextEncoder().encode(JSON.stringify(header));
+  const bytes = new Uint8Array(4 + text.length);
+  new DataView(bytes.buffer).setUint32(0, text.length, true);
+  bytes.set(text, 4);
+  return bytes;
+}

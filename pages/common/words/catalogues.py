@@ -14,7 +14,7 @@ ENGLISH = "en"
 LOCALE = Path(__file__).parents[2] / "locale"
 # Offered when every sentence of the program is in its catalogue; tests/pages/test_catalogue.py sees to it. Each by the
 # name that it has in itself: čeština, norsk, srpski, русский, Deutsch.
-OFFERED = {ENGLISH: "English"}
+OFFERED = {ENGLISH: "English", "no": "norsk"}
 
 
 @dataclass(frozen=True, slots=True)

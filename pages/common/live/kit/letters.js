@@ -5,6 +5,6 @@ import { language } from "./words.js";
 export function letters(name) {
   const place = `${name} ${language}`;
   globalThis.simcLetters ??= {};
-  globalThis.simcLetters[place] ??= { open: null, waiting: [] };
+  globalThis.simcLetters[place] ??= { open: null, owner: null, waiting: [] };
   return globalThis.simcLetters[place];
 }
