@@ -13,7 +13,7 @@ from simc_core.loops.frequency_response import FrequencyResponse
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.crossings import Crossings
 from simc_core.sensitivity.margins_of_response import Margins
-from simc_core.wording import Numeral, Text, said
+from simc_core.wording import Numeral, Text, joined, said
 
 PHASE_VIEW = -540.0  # degrees; dead time winds on for ever, the eye need not follow it
 GAIN_VIEW = (1e-3, 1e3)  # widest span of |L| drawn round 1
@@ -62,11 +62,15 @@ def sensitivity_figure(
     """|S| solid and |T| long-dashed over omega, peaks Ms and Mt of the present design marked."""
     traces: list[Trace] = []
     for position, (name, record) in reversed(list(enumerate(curves))):
-        suffix = f" {name}" if position else ""
+        suffix = [" ", name] if position else []
         color, dash, width = palette.shade(palette.S, position)
-        pair = [_magnitude(record.omega, record.S, f"|S|{suffix}", color, dash, width)]
+        pair = [_magnitude(record.omega, record.S, joined(["|S|", *suffix], ""), color, dash, width)]
         color, dash, width = palette.shade(palette.Y, position)
-        pair.append(_magnitude(record.omega, record.T, f"|T|{suffix}", color, dash if position else "longdash", width))
+        pair.append(
+            _magnitude(
+                record.omega, record.T, joined(["|T|", *suffix], ""), color, dash if position else "longdash", width
+            )
+        )
         traces += [trace | {"showlegend": position == 0} for trace in pair]  # the other figures name the pinned ones
     present = curves[0][1]
     ends = float(present.omega[0]), float(present.omega[-1])

@@ -21,8 +21,8 @@ def bundle_figure(
     traces = [
         _bundle([(each.t, each.y) for each in family], said("changed plants")),
         palette.line(nominal.t, nominal.r, "r", palette.R, "dash", 1.4, hoverinfo="skip"),
-        palette.line(worst.t, worst.y, "worst", palette.ALARM, "dash", 2.0, hovertemplate="%{y:.4g}"),
-        palette.line(nominal.t, nominal.y, "nominal", palette.Y, "solid", 2.2, hovertemplate="%{y:.4g}"),
+        palette.line(worst.t, worst.y, said("worst"), palette.ALARM, "dash", 2.0, hovertemplate="%{y:.4g}"),
+        palette.line(nominal.t, nominal.y, said("nominal"), palette.Y, "solid", 2.2, hovertemplate="%{y:.4g}"),
     ]
     values = np.concatenate([each.y for each in (nominal, *family)])
     low, high = max(float(values.min()), FAR[0]), min(float(values.max()), FAR[1])
@@ -41,8 +41,8 @@ def band_figure(found: Robustness, nominal: np.ndarray, omega: np.ndarray, heigh
     worst = found.worst.loop.L(1j * omega)
     traces = [
         _bundle([(L.real, L.imag) for L in curves], said("changed plants")),
-        palette.line(worst.real, worst.imag, "worst", palette.ALARM, "dash", 2.0, hoverinfo="skip"),
-        palette.line(nominal.real, nominal.imag, "nominal", palette.Y, "solid", 2.2, hoverinfo="skip"),
+        palette.line(worst.real, worst.imag, said("worst"), palette.ALARM, "dash", 2.0, hoverinfo="skip"),
+        palette.line(nominal.real, nominal.imag, said("nominal"), palette.Y, "solid", 2.2, hoverinfo="skip"),
         critical_point(),
     ]
     if found.worst.stable:

@@ -126,7 +126,7 @@ def _best(identified: Identified | Sequence[Identified]) -> Identified:
         return identified
     first = identified[0] if isinstance(identified, Sequence) and identified else None
     if not isinstance(first, Identified):
-        raise WrongType("identified must be what identify or identify_all returns")
+        raise WrongType(said("identified must be what identify or identify_all returns"))
     return first
 
 

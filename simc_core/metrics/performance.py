@@ -192,17 +192,28 @@ def _measured(loops: Sequence[Loop], course: UnitResponses, decays: Sequence[flo
     return result
 
 
+OFFSET = (  # after a step of r, and of d
+    said("IAE needs a loop that settles without offset, found {offset:.4g} after a set-point step", offset=0.0),
+    said("IAE needs a loop that settles without offset, found {offset:.4g} after a load step", offset=0.0),
+)
+
+
 def _refusal(course: UnitResponses, i: int) -> NotStable | None:
     """Why the integrals of a loop diverge, or cannot be known."""
     last = course.first[i + 1] - 1
     if not course.at_rest[i]:
         reached = course.begin[last] + course.length[last]
-        return NotStable(f"the loop must come to rest within {reached:.3g}, found one too close to its stability limit")
+        return NotStable(
+            said(
+                "the loop must come to rest within {reached:.3g}, found one too close to its stability limit",
+                reached=float(reached),
+            )
+        )
     right = np.add.reduce(course.coefficients[0, :, course.first[i] : last + 1], axis=-1)
     offsets, largest = right[:, -1] - (1.0, 0.0), np.maximum.reduce(np.abs(right), axis=1)
-    for name, offset, size in zip(("set-point", "load"), offsets.tolist(), largest.tolist(), strict=True):
+    for found, offset, size in zip(OFFSET, offsets.tolist(), largest.tolist(), strict=True):
         if abs(offset) > LARGEST_OFFSET * max(size, 1e-300):
-            return NotStable(f"IAE needs a loop that settles without offset, found {-offset:.4g} after a {name} step")
+            return NotStable(found.put(offset=-offset))
     return None
 
 

@@ -26,6 +26,7 @@ from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.bands import exceeds
 from simc_core.studies.remedies import FILTERS, calmer, filter_that_costs_little, tight
 from simc_core.studies.tuned import Tuned
+from simc_core.wording import joined, said
 
 GOOD_PM = 45.0  # degrees; what most would call a good phase margin
 SLOW_INTEGRATING = 8.0  # tau_c/theta of the "moderate" choice [V06 eq. 7]; an integrating plant has no time of its own
@@ -34,12 +35,13 @@ LIMIT_ROUNDING = 1e-9  # tau_c = theta is at the limit, up to this
 LARGE_OVERSHOOT = 0.2  # of a set-point step
 WEIGHTS = (0.7, 0.5, 0.3, 0.2, 0.0)  # set-point weights that are tried
 LEVELS = ("error", "warning", "note")
-NOT_STABLE = "The loop is not stable, so it has neither margins nor IAE."
-FRAGILE = "L passes close to -1: small errors of the model can make the loop unstable."
-UNFILTERED = "The derivative has no filter: measurement noise passes without limit."
+NOT_STABLE = said("The loop is not stable, so it has neither margins nor IAE.")
+FRAGILE = said("L passes close to -1: small errors of the model can make the loop unstable.")
+UNFILTERED = said("The derivative has no filter: measurement noise passes without limit.")
+UNSTABLE = said("Not stable")
 BY_MODEL = {
-    DoubleIntegratingDelay: "Two integrators need derivative action: the rule for this plant is a PID.",
-    OscillatingDelay: "The rule for an oscillating plant is a PID, in ideal form.",
+    DoubleIntegratingDelay: said("Two integrators need derivative action: the rule for this plant is a PID."),
+    OscillatingDelay: said("The rule for an oscillating plant is a PID, in ideal form."),
 }
 
 
@@ -65,10 +67,16 @@ class Advice:
     @property
     def headline(self) -> str:
         """Quantity, value and limit, as "Ms = 2.31, should be at most 2"."""
-        said = self.quantity if math.isnan(self.value) else f"{self.quantity} = {number(self.value, 3)}"
+        if math.isnan(self.value):
+            return self.quantity
+        value, limit = number(self.value, 3), number(self.limit, 3)
         if math.isnan(self.limit):
-            return said
-        return f"{said}, should be at {'least' if self.at_least else 'most'} {number(self.limit, 3)}"
+            return said("{quantity} = {value}", quantity=self.quantity, value=value)
+        if self.at_least:
+            return said(
+                "{quantity} = {value}, should be at least {limit}", quantity=self.quantity, value=value, limit=limit
+            )
+        return said("{quantity} = {value}, should be at most {limit}", quantity=self.quantity, value=value, limit=limit)
 
 
 def advice(of: Tuned) -> tuple[Advice, ...]:
@@ -82,8 +90,7 @@ def not_stable(of: Tuned) -> Advice | None:
     if of.margins.stable:
         return None
     change, gives = calmer(of)
-    remedy = f"{in_words(change)}: {gives}." if change else _no_way(of)
-    return Advice("error", "Not stable", NOT_STABLE, remedy=remedy, change=change)
+    return Advice("error", UNSTABLE, NOT_STABLE, remedy=_calmed(of, change, gives), change=change)
 
 
 def large_Ms(of: Tuned) -> Advice | None:
@@ -91,14 +98,17 @@ def large_Ms(of: Tuned) -> Advice | None:
     Ms, PM = of.margins.Ms, of.margins.PM_deg
     if math.isnan(Ms) or not exceeds(Ms, LARGEST_MS):
         return None
-    text = FRAGILE
+    text = [FRAGILE]
     if PM >= GOOD_PM:
-        text += f" The phase margin ({number(PM, 3)} deg) hides it: it looks at one frequency only."
+        text.append(
+            said("The phase margin ({PM} deg) hides it: it looks at one frequency only.", PM=number(PM, 3)),
+        )
     if isinstance(of.model, UnstableDelay) and of.model.a * of.model.theta >= HARD_A_THETA:
-        text += f" The dead time is long for this pole: a theta = {number(of.model.a * of.model.theta, 3)}, limit 0.5."
+        product = number(of.model.a * of.model.theta, 3)
+        text.append(said("The dead time is long for this pole: a theta = {product}, limit 0.5.", product=product))
     change, gives = calmer(of)
-    remedy = f"{in_words(change)}: {gives}." if change else _no_way(of)
-    return Advice("warning", "Ms", text, Ms, LARGEST_MS, remedy=remedy, change=change)
+    remedy = _calmed(of, change, gives)
+    return Advice("warning", "Ms", joined(text, " "), Ms, LARGEST_MS, remedy=remedy, change=change)
 
 
 def faster_than_dead_time(of: Tuned) -> Advice | None:
@@ -110,11 +120,13 @@ def faster_than_dead_time(of: Tuned) -> Advice | None:
     if not calm < of.margins.Ms:
         return None
     name = "theta/2" if of.rule == "isimc" else "theta"
-    text = (
-        f"This is faster than the tight setting tau_c = {name}. Ms is {number(of.margins.Ms, 3)}, "
-        f"with tau_c = {name} it is {number(calm, 3)}."
+    text = said(
+        "This is faster than the tight setting tau_c = {tight}. Ms is {Ms}, with tau_c = {tight} it is {calm}.",
+        tight=name,
+        Ms=number(of.margins.Ms, 3),
+        calm=number(calm, 3),
     )
-    return Advice("note", "tau_c", text, tau_c, usual, True, f"Take tau_c = {name}.", change)
+    return Advice("note", "tau_c", text, tau_c, usual, True, said("Take tau_c = {tau_c}.", tau_c=name), change)
 
 
 def slower_than_plant(of: Tuned) -> Advice | None:
@@ -126,14 +138,15 @@ def slower_than_plant(of: Tuned) -> Advice | None:
         return None
     if of.plant.integrators:
         worse = load_error(of.controller) / load_error(of.at(of.model.theta).controller)
-        text = f"Sluggish: the load error tau_I/Kc is {number(worse, 3)} times that of tau_c = theta."
+        text = said("Sluggish: the load error tau_I/Kc is {times} times that of tau_c = theta.", times=number(worse, 3))
     else:
-        text = (
+        text = said(
             "Sluggish: set-point steps take longer than a step of the plant without a controller, "
-            f"which reaches 63 % after {number(rise_time(of.plant), 3)}."
+            "which reaches 63 % after {time}.",
+            time=number(rise_time(of.plant), 3),
         )
-    change = {"tau_c": limit}
-    return Advice("note", "tau_c", text, of.tau_c, limit, remedy=in_words(change) + ", or less.", change=change)
+    remedy = said("Take tau_c = {tau_c}, or less.", tau_c=number(limit, 4))
+    return Advice("note", "tau_c", text, of.tau_c, limit, remedy=remedy, change={"tau_c": limit})
 
 
 def slowest_useful(plant: Plant, model: Model) -> float:
@@ -154,18 +167,30 @@ def derivative_noise(of: Tuned) -> Advice | None:
         return None
     if form.tau_F:
         gain = abs(form.Kd) / form.tau_F
-        times = f", {number(gain / abs(form.Kp), 3)} times Kp" if form.Kp else ""
-        text = f"Fast measurement noise reaches the input with this gain{times}. A larger tau_F lowers it."
-        return Advice("note", "High-frequency gain Kd/tau_F", text, gain)
+        text = said("Fast measurement noise reaches the input with this gain. A larger tau_F lowers it.")
+        if form.Kp:
+            text = said(
+                "Fast measurement noise reaches the input with this gain, {times} times Kp. A larger tau_F lowers it.",
+                times=number(gain / abs(form.Kp), 3),
+            )
+        return Advice("note", said("High-frequency gain Kd/tau_F"), text, gain)
     change, Ms = filter_that_costs_little(of)
     if not change:
-        way = "damp the plant by an inner loop" if isinstance(of.model, OscillatingDelay) else "do without D"
-        remedy = f"A filter of {number(FILTERS[-1])} tau_D already makes the loop fragile: {way}."
+        least = number(FILTERS[-1])
+        remedy = said("A filter of {ratio} tau_D already makes the loop fragile: do without D.", ratio=least)
+        if isinstance(of.model, OscillatingDelay):
+            remedy = said(
+                "A filter of {ratio} tau_D already makes the loop fragile: damp the plant by an inner loop.",
+                ratio=least,
+            )
         return Advice("warning", "tau_F = 0", UNFILTERED, remedy=remedy)
     assert isinstance(of.controller, SeriesPid | IdealPid)  # SIMC with derivative action
-    tau_F = change["filter"] * of.controller.tau_D
-    remedy = f"Set tau_F/tau_D = {number(change['filter'])}, tau_F = {number(tau_F, 3)}"
-    remedy += f": Ms becomes {number(Ms, 3)}." if math.isfinite(Ms) else "."
+    ratio, tau_F = number(change["filter"]), number(change["filter"] * of.controller.tau_D, 3)
+    remedy = said("Set tau_F/tau_D = {ratio}, tau_F = {tau_F}.", ratio=ratio, tau_F=tau_F)
+    if math.isfinite(Ms):
+        remedy = said(
+            "Set tau_F/tau_D = {ratio}, tau_F = {tau_F}: Ms becomes {Ms}.", ratio=ratio, tau_F=tau_F, Ms=number(Ms, 3)
+        )
     return Advice("warning", "tau_F = 0", UNFILTERED, remedy=remedy, change=change)
 
 
@@ -173,11 +198,11 @@ def oscillating_plant(of: Tuned) -> Advice | None:
     """The rule for oscillating models cancels the poles: nothing damps them."""
     if not isinstance(of.model, OscillatingDelay):
         return None
-    text = (
+    text = said(
         "The controller cancels the oscillating poles and does not damp them. D acts on the measurement, "
         "so both set-point steps and disturbances at the plant input ring with the damping of the open plant."
     )
-    return Advice("note", "zeta", text, of.model.zeta, remedy="If that matters, damp the plant by an inner loop.")
+    return Advice("note", "zeta", text, of.model.zeta, remedy=said("If that matters, damp the plant by an inner loop."))
 
 
 def order_two(of: Tuned) -> Advice | None:
@@ -187,9 +212,9 @@ def order_two(of: Tuned) -> Advice | None:
         return None
     derivative = delivered(of.controller) == "PID"
     if orders.second_pays and of.order == 1:
-        return Advice("note", "PI", of_orders(orders), remedy="Take PID.", change={"order": 2})
+        return Advice("note", "PI", of_orders(orders), remedy=said("Take PID."), change={"order": 2})
     if not orders.second_pays and of.order == 2 and derivative:
-        return Advice("note", "PID", of_orders(orders), remedy="PI will do.", change={"order": 1})
+        return Advice("note", "PID", of_orders(orders), remedy=said("PI will do."), change={"order": 1})
     return None
 
 
@@ -198,14 +223,16 @@ def other_than_chosen(of: Tuned) -> Advice | None:
     chosen, got = ("PI", "PID")[of.order - 1], delivered(of.controller)
     if chosen == got or of.rule != "simc":
         return None
-    quantity = f"{chosen} chosen, {got} delivered"
+    quantity = said("{chosen} chosen, {delivered} delivered", chosen=chosen, delivered=got)
     if got == "I":
-        return Advice("note", quantity, "The model is pure dead time: its SIMC controller is a pure integrator, K_I/s.")
+        text = said("The model is pure dead time: its SIMC controller is a pure integrator, K_I/s.")
+        return Advice("note", quantity, text)
     if got == "PID":
         text = BY_MODEL[type(of.model)]
-        return Advice("note", quantity, text, remedy="Choose PID; the settings stay as they are.", change={"order": 2})
-    text = "The model has no second lag: tau_D = 0, and the controller is a PI."
-    return Advice("note", quantity, text, remedy="Choose PI.", change={"order": 1})
+        remedy = said("Choose PID; the settings stay as they are.")
+        return Advice("note", quantity, text, remedy=remedy, change={"order": 2})
+    text = said("The model has no second lag: tau_D = 0, and the controller is a PI.")
+    return Advice("note", quantity, text, remedy=said("Choose PI."), change={"order": 1})
 
 
 def set_point_overshoot(of: Tuned) -> Advice | None:
@@ -221,9 +248,16 @@ def set_point_overshoot(of: Tuned) -> Advice | None:
             break
     else:
         return None
-    text = "Behind an integrator, integral action with b = 1 overshoots after a step of the set point at any speed."
-    remedy = f"Take b = {number(b)}: {number(100 * less, 3)} %, and margins and the load response stay."
-    return Advice("note", "Overshoot [%]", text, 100 * now, 100 * LARGE_OVERSHOOT, remedy=remedy, change={"b": b})
+    text = said(
+        "Behind an integrator, integral action with b = 1 overshoots after a step of the set point at any speed."
+    )
+    remedy = said(
+        "Take b = {b}: {overshoot} %, and margins and the load response stay.",
+        b=number(b),
+        overshoot=number(100 * less, 3),
+    )
+    quantity, limit = said("Overshoot [%]"), 100 * LARGE_OVERSHOOT
+    return Advice("note", quantity, text, 100 * now, limit, remedy=remedy, change={"b": b})
 
 
 def _overshoot(of: Tuned) -> float:
@@ -255,18 +289,26 @@ def delivered(controller: Controller) -> str:
 
 def in_words(change: dict[str, Any]) -> str:
     """A change of the design as an order, as "Take tau_c = 9"."""
-    said = []
+    parts: list[str] = []
     if "order" in change:
-        said.append(("PI", "PID")[change["order"] - 1])
+        parts.append(("PI", "PID")[change["order"] - 1])
     if "tau_c" in change:
-        said.append("tau_c = " + ("theta" if change["tau_c"] is None else number(change["tau_c"], 4)))
+        parts.append(equation("tau_c", "theta" if change["tau_c"] is None else number(change["tau_c"], 4)))
     if "filter" in change:
-        said.append(f"tau_F/tau_D = {number(change['filter'])}")
-    said += [f"{name} = {number(change[name], 4)}" for name in ("h", "r", "d", "b") if name in change]
-    return "Take " + " with ".join(said)
+        parts.append(equation("tau_F/tau_D", number(change["filter"])))
+    parts += [equation(name, number(change[name], 4)) for name in ("h", "r", "d", "b") if name in change]
+    return said("Take {what}", what=joined(parts, said(" with ")))
 
 
-def _no_way(of: Tuned) -> str:
+def equation(name: str, value: str) -> str:
+    """One setting, as "tau_c = 9", in which a number may have another decimal sign."""
+    return joined((name, value), " = ")
+
+
+def _calmed(of: Tuned, change: dict[str, Any], gives: str) -> str:
+    """The remedy that `calmer` found, and what it gives; or that there is none."""
+    if change:
+        return said("{order}: {gives}.", order=in_words(change), gives=gives)
     if isinstance(of.model, UnstableDelay):
-        return "Shorten the dead time, or close a fast inner loop around the unstable part (cascade)."
-    return "No SIMC setting of this plant was found with Ms of at most 2."
+        return said("Shorten the dead time, or close a fast inner loop around the unstable part (cascade).")
+    return said("No SIMC setting of this plant was found with Ms of at most 2.")

@@ -29,8 +29,14 @@ def out_of_reach(plant: Plant, scenario: Scenario, u: str = "u", now: float = 0.
         limit = high if before > high else low
         change = {"r": INSIDE * limit / per_r}
         needed, allowed = number(before + now, 3), number(limit + now, 3)
-        text = f"r = {number(scenario.setpoint, 3)} needs {u} = {needed}, the limit is {allowed}: it is never reached."
-        remedy = f"Ask for {number(change['r'], 3)} at most, or allow more {u}."
+        text = said(
+            "r = {r} needs {u} = {needed}, the limit is {allowed}: it is never reached.",
+            r=number(scenario.setpoint, 3),
+            u=u,
+            needed=needed,
+            allowed=allowed,
+        )
+        remedy = said("Ask for {r} at most, or allow more {u}.", r=number(change["r"], 3), u=u)
         found.append(Advice("warning", "r", text, scenario.setpoint, change["r"], limit * per_r < 0, remedy, change))
         before = INSIDE * limit
     after = before - scenario.disturbance
@@ -38,8 +44,13 @@ def out_of_reach(plant: Plant, scenario: Scenario, u: str = "u", now: float = 0.
         limit = high if after > high else low
         change = {"d": before - INSIDE * limit}
         needed, allowed = number(after + now, 3), number(limit + now, 3)
-        text = f"With the load, {u} = {needed} is needed, the limit is {allowed}: the error stays."
-        remedy = f"Expect a load of {number(change['d'], 3)} at most, or allow more {u}."
+        text = said(
+            "With the load, {u} = {needed} is needed, the limit is {allowed}: the error stays.",
+            u=u,
+            needed=needed,
+            allowed=allowed,
+        )
+        remedy = said("Expect a load of {d} at most, or allow more {u}.", d=number(change["d"], 3), u=u)
         below = change["d"] < 0
         found.append(Advice("warning", "d", text, scenario.disturbance, change["d"], below, remedy, change))
     return tuple(found)
@@ -51,13 +62,22 @@ def sampling_not_in_tuning(of: Tuned, h: float) -> Advice | None:
     more = (h - known) / 2
     if not more > SMALL * (of.tau_c + of.model.theta):
         return None
-    text = f"The tuning does not allow for it: {number(more, 3)} of dead time is missing in theta and in Ms."
+    missing = number(more, 3)
+    text = [
+        said("The tuning does not allow for it: {missing} of dead time is missing in theta and in Ms.", missing=missing)
+    ]
     if known:
-        text = f"The tuning allows for {number(known)}: {number(more, 3)} of dead time is missing in theta and in Ms."
+        text = [
+            said(
+                "The tuning allows for {h}: {missing} of dead time is missing in theta and in Ms.",
+                h=number(known),
+                missing=missing,
+            )
+        ]
     if of.margins.stable and more >= of.margins.delay_margin:
-        text += f" The loop bears {number(of.margins.delay_margin, 3)} more."
-    remedy = "Let the half rule allow for it; with tau_c = theta the loop becomes slower."
-    return Advice("warning", "Sampling period", text, h, remedy=remedy, change={"h": h})
+        text.append(said("The loop bears {delay} more.", delay=number(of.margins.delay_margin, 3)))
+    remedy = said("Let the half rule allow for it; with tau_c = theta the loop becomes slower.")
+    return Advice("warning", said("Sampling period"), joined(text, " "), h, remedy=remedy, change={"h": h})
 
 
 def error_integral(t: np.ndarray, r: np.ndarray, y: np.ndarray) -> float:

@@ -25,22 +25,23 @@ from simc_core.reduction.records import LARGEST_MS
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
 from simc_core.sensitivity.margins_of_response import Margins
-from simc_core.studies.advice import FRAGILE, NOT_STABLE, UNFILTERED, Advice
+from simc_core.studies.advice import FRAGILE, NOT_STABLE, UNFILTERED, UNSTABLE, Advice, equation
 from simc_core.studies.bands import exceeds
+from simc_core.wording import joined, said
 
 LEAST_DAMPING = 0.5  # zeta; below it each swing is more than 16 % of the one before
 SLOW = 8.0  # periods from so many dead times on; 4 at the limit of stability, 6 before it [SK98]
-DAMPING = "Damping"
+DAMPING = said("Damping")
 
 
 def advice_on_settings(loop: Loop, found: Margins) -> tuple[Advice, ...]:
     """What applies to settings that no rule has made, the gravest first. found: margins of the loop."""
-    return tuple(_said(loop, found))
+    return tuple(_applies(loop, found))
 
 
-def _said(loop: Loop, found: Margins) -> Iterator[Advice]:
+def _applies(loop: Loop, found: Margins) -> Iterator[Advice]:
     if not found.stable:
-        yield Advice("error", "Not stable", NOT_STABLE)
+        yield Advice("error", UNSTABLE, NOT_STABLE)
     elif exceeds(found.Ms, LARGEST_MS):
         yield Advice("warning", "Ms", FRAGILE, found.Ms, LARGEST_MS)
     if found.stable and (slow := slow_oscillation(loop.plant, loop.controller)):
@@ -73,12 +74,17 @@ def slow_oscillation(plant: Plant, controller: Controller) -> Advice | None:
             break
     else:
         return None
-    text = f"The loop oscillates slowly, period {number(2 * math.pi / slow.s.imag, 3)}: "
-    text += "the integral action is too strong for this gain."
+    text = [
+        said(
+            "The loop oscillates slowly, period {period}: the integral action is too strong for this gain.",
+            period=number(2 * math.pi / slow.s.imag, 3),
+        )
+    ]
     if isinstance(model, IntegratingDelay):
-        text += f" Kc k' tau_I is {number(series.Kc * model.k_prime * series.tau_I, 3)}, should be at least 4."
-    remedy = f"{settings_changed(controller, better)}: {after}."
-    return Advice("warning", DAMPING, text, slow.zeta, LEAST_DAMPING, True, remedy, {"own": better})
+        product = number(series.Kc * model.k_prime * series.tau_I, 3)
+        text.append(said("Kc k' tau_I is {product}, should be at least 4.", product=product))
+    remedy = said("{order}: {gives}.", order=settings_changed(controller, better), gives=after)
+    return Advice("warning", DAMPING, joined(text, " "), slow.zeta, LEAST_DAMPING, True, remedy, {"own": better})
 
 
 def real_poles_from(model: Model, Kc: float) -> float:
@@ -137,11 +143,14 @@ def _damped(loop: Loop, theta: float) -> str:
         return ""
     slow = _slow_pair(loop, theta)
     if slow is None:
-        return f"the oscillation is gone, with Ms {number(found.Ms, 3)}"
-    return f"damping becomes {number(slow.zeta, 2)}, Ms {number(found.Ms, 3)}" if slow.zeta >= LEAST_DAMPING else ""
+        return said("the oscillation is gone, with Ms {Ms}", Ms=number(found.Ms, 3))
+    if not slow.zeta >= LEAST_DAMPING:
+        return ""
+    return said("damping becomes {zeta}, Ms {Ms}", zeta=number(slow.zeta, 2), Ms=number(found.Ms, 3))
 
 
 def settings_changed(before: Controller, after: Controller) -> str:
     """As an order: "Take Kc = 0.8"."""
     former = before.settings
-    return "Take " + ", ".join(f"{name} = {number(v, 3)}" for name, v in after.settings.items() if v != former[name])
+    changed = [equation(name, number(v, 3)) for name, v in after.settings.items() if v != former[name]]
+    return said("Take {what}", what=joined(changed))

@@ -18,6 +18,7 @@ from simc_core import checks
 from simc_core.loops.loop import Loop
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
+from simc_core.wording import Numeral, joined
 
 LARGEST_CHANGE = 0.9  # a change of 100 % would leave no plant
 SAMPLES, SEED = 24, 1979
@@ -40,7 +41,9 @@ class Case:
     @property
     def name(self) -> str:
         """The changes in words, as "k +20 %, theta +20 %"."""
-        return ", ".join(f"{symbol} {100 * part:+.3g} %" for symbol, part in self.change.items())
+        return joined(
+            [joined((symbol, " ", Numeral(f"{100 * part:+.3g}"), " %"), "") for symbol, part in self.change.items()]
+        )
 
 
 @dataclass(frozen=True, slots=True)

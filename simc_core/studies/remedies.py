@@ -9,6 +9,7 @@ from simc_core.notation import number, rounded_up
 from simc_core.plants.models import UnstableDelay
 from simc_core.reduction.records import LARGEST_MS
 from simc_core.studies.tuned import Tuned
+from simc_core.wording import said
 
 GOOD_MS = 1.7  # what a remedy aims at; up to LARGEST_MS it is still one
 SLOWER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0, 20.0, 50.0, 100.0)  # factors on tau_c
@@ -24,10 +25,10 @@ def calmer(of: Tuned) -> tuple[Change, str]:
     best: tuple[Change, float] | None = None
     for change, Ms in _trials(of):
         if Ms <= GOOD_MS:
-            return change, f"Ms becomes {number(Ms, 3)}"
+            return change, said("Ms becomes {Ms}", Ms=number(Ms, 3))
         if Ms <= LARGEST_MS and (best is None or Ms < best[1]):
             best = change, Ms
-    return ({}, "") if best is None else (best[0], f"Ms becomes {number(best[1], 3)}")
+    return ({}, "") if best is None else (best[0], said("Ms becomes {Ms}", Ms=number(best[1], 3)))
 
 
 def filter_that_costs_little(of: Tuned) -> tuple[Change, float]:

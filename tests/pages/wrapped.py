@@ -2,6 +2,7 @@
 
 import json
 import re
+import struct
 from collections.abc import Iterator
 from html import unescape
 
@@ -32,6 +33,7 @@ FORMULAS = {  # as code, and typed numbers, which every language writes with poi
     "2.2 exp(-20s)/(180s+1)",
     "Time\tPV\tOP\n0\t20.5\t40\n1\t20.5\t45",
 }
+TOLD = {"label", "meaning", "action", "actions", "labels", "presets", "bands", "pins"}  # of a message to an instrument
 IN_FIGURES = {"text", "title", "name", "hovertemplate", "customdata"}
 MARKUP = re.compile(
     r"(?P<code>(?P<fence>`+).*?(?<!`)(?P=fence)(?!`))|\$\$.*?\$\$|\$[^$]*\$|%\{[^{}]*\}|<style>.*?</style>|</?[a-zA-Z][^<>]*>|:material/\w+:|:\w+\["
@@ -45,6 +47,7 @@ SYMBOLS = {
     "PID",
     "Mst",
     "SIMC",
+    "iSIMC",
     "IAE",
     "exp",
     "cos",
@@ -164,6 +167,23 @@ def _of_component(proto) -> Iterator[tuple[str, str]]:
     for name, text in json.loads(proto.json or "{}").items() if proto.HasField("json") else ():
         if isinstance(text, str) and name not in FOREIGN:
             yield f"{proto.component_name}, {name}", text
+    if proto.HasField("bytes"):
+        (length,) = struct.unpack_from("<I", proto.bytes)
+        header = json.loads(proto.bytes[4 : 4 + length])
+        yield from ((f"{proto.component_name}, {where}", text) for where, text in _of_instrument(header))
+
+
+def _of_instrument(node, name: str = "", told: bool = False) -> Iterator[tuple[str, str]]:
+    """What an instrument is told to show: names of things are beside numbers and code."""
+    if isinstance(node, str):
+        if told:
+            yield name, node
+    elif isinstance(node, dict):
+        for inner, value in node.items():
+            yield from _of_instrument(value, inner, told or inner in TOLD)
+    elif isinstance(node, list):
+        for value in node[-1:] if name == "of a band" else node:
+            yield from _of_instrument(value, "of a band" if name == "bands" else name, told)
 
 
 def _of_proto(proto) -> Iterator[tuple[str, str]]:

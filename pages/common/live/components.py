@@ -5,6 +5,7 @@ from base64 import b64encode
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
+from uuid import uuid4
 
 import streamlit as st
 
@@ -92,9 +93,15 @@ def show(name: str, key: str, data: bytes, take: Callable[[Mapping], None]) -> i
 
 
 def _lecture(name: str, key: str) -> None:
-    """What the lecture view is told: that a link asks for it, and its own link where it asked for that."""
+    """What the lecture view is told: that a link asks for it, and its own link where it asked for that.
+
+    What is asked for stands in every run from then on, with a number by which the browser hears it once: a run that
+    follows at once may take away what the one before it has said.
+    """
     if place := asked_lecture():
-        message(key=f"{key}_lecture", data=pack({"kind": "lecture", "to": name} | place_of(place), {}))
+        state.make_last(f"{key}_asked", place_of(place) | {"once": uuid4().hex})
+    if asked := state.lasting(f"{key}_asked", dict):
+        message(key=f"{key}_lecture", data=pack({"kind": "lecture", "to": name} | asked, {}))
     if place := state.memory(f"{key}_place", dict):
         link = state.address(**place, lecture="1")
         header = {"kind": "link", "to": name, "link": link, "qr": picture_of(qr_svg(link))}

@@ -5,6 +5,7 @@ import math
 from pages.common.parts.units import unit_of
 from pages.common.session.sheet import Sheet
 from simc_core.controllers.forms import Controller, IController
+from simc_core.implementation.boxes.box import DIRECT, REVERSE
 from simc_core.wording import said
 
 STRUCTURE = {
@@ -24,6 +25,7 @@ NO_FORM = {
     "ideal": said("No ideal form: {error}", error=""),
     "parallel": said("No parallel form: {error}", error=""),
 }
+ACTION_NAMED = {"reverse": REVERSE, "direct": DIRECT}
 ACTION = {"reverse": said("reverse action"), "direct": said("direct action")}
 ACTIONS = {"reverse": said("The output falls when PV rises."), "direct": said("The output rises when PV rises.")}
 

@@ -68,5 +68,5 @@ def pair(label: str, names: tuple[str, str], values: tuple[float, float]) -> Rea
 def gain_margin(judged: Margins) -> Reading:
     """The upper limit, and the lower one where there is one."""
     if judged.GM_lower > 0:
-        return pair("Gain margin, low · high", ("GM_lower", "GM"), (judged.GM_lower, judged.GM))
+        return pair(words("Gain margin, low · high"), ("GM_lower", "GM"), (judged.GM_lower, judged.GM))
     return reading("GM", judged.GM)

@@ -46,7 +46,9 @@ def told_of(origin: Origin) -> str:
 def gains_apart(origin: Origin) -> str:
     """A warning: moves of OP do not show the one gain that was fitted to all of them."""
     low, high = (number(each, 3) for each in origin.gains)
-    return (
-        f"**Gains differ.** Moves of OP in the record show gains of {low} and {high}; this plant has one for all of "
-        "them. *Tune for the larger, or fit each operating point on the page From data and make a gain schedule.*"
+    return words(
+        "**Gains differ.** Moves of OP in the record show gains of {low} and {high}; this plant has one for all of "
+        "them. *Tune for the larger, or fit each operating point on the page From data and make a gain schedule.*",
+        low=low,
+        high=high,
     )

@@ -76,7 +76,7 @@ class Ignored:
     why: str
 
     def __str__(self) -> str:
-        return f"{self.given} was ignored: {self.why}"
+        return said("{given} was ignored: {why}", given=self.given, why=self.why)
 
     @property
     def given(self) -> str:

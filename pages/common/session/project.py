@@ -13,7 +13,7 @@ from pages.common.session import links
 from pages.common.session.design import Design
 from pages.common.session.loops import MOST_LOOPS, Entry, Loops, new_id
 from simc_core.errors import SimcError
-from simc_core.wording import said
+from simc_core.wording import joined, said
 
 FORMAT = "simc-project"
 VERSION = 2
@@ -74,5 +74,5 @@ def _entry(each) -> Entry:
 def _design(fields: dict[str, str]) -> Design:
     design, ignored = links.decode(fields)
     if ignored:
-        raise SimcError("; ".join(map(str, ignored)))
+        raise SimcError(joined(map(str, ignored), "; "))
     return design

@@ -3,6 +3,7 @@
 from pages.common.parts.panel import Panel, field, show
 from pages.common.session.excitation import Excitation
 from pages.common.studies.single import Study, common_grid, frequency_responses, time_responses
+from pages.common.words import words
 from simc_core.figures import (
     input_figure,
     nyquist_figure,
@@ -27,10 +28,10 @@ def panels(studies: list[tuple[str, Study]], excitation: Excitation) -> None:
     sensitivity = sensitivity_figure(frequencies, present.margins, HEIGHT)
     field(
         (
-            Panel("y", "y", "Output y after a set-point step and a load step", y),
-            Panel("u", "u", "Controller output u after a set-point step and a load step", u),
-            Panel("nyquist", "Nyquist", "Nyquist curve of L with Ms and Mt circles", nyquist),
-            Panel("sensitivity", "|S| |T|", "Magnitude of S and T over frequency", sensitivity),
+            Panel("y", "y", words("Output y after a set-point step and a load step"), y),
+            Panel("u", "u", words("Controller output u after a set-point step and a load step"), u),
+            Panel("nyquist", words("Nyquist"), words("Nyquist curve of L with Ms and Mt circles"), nyquist),
+            Panel("sensitivity", "|S| |T|", words("Magnitude of S and T over frequency"), sensitivity),
         )
     )
 
@@ -41,4 +42,4 @@ def open_loop(studies: list[tuple[str, Study]]) -> None:
     curves = [(name, bode_curve(each.loop.L, omega)) for name, each in studies]
     present = studies[0][1]
     figure = open_loop_figure(curves, present.margins, crossings(present.loop), TALL)
-    show(figure, "open_loop", "Bode diagram of the open loop L")
+    show(figure, "open_loop", words("Bode diagram of the open loop L"))

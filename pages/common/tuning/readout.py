@@ -4,6 +4,7 @@ import streamlit as st
 
 from pages.common.parts.strip import Reading, cell_html, gain_margin, pair, peak_html, reading
 from pages.common.studies.single import Study
+from pages.common.words import words
 
 
 def readout(study: Study) -> None:
@@ -16,11 +17,12 @@ def strip_html(study: Study) -> str:
     if not study.stable:
         return (
             '<div class="strip alarm" role="status"><div class="first" style="grid-column: 1 / -1">'
-            "<b>Not stable</b><span>margins and IAE do not exist</span></div></div>"
+            f"<b>{words('Not stable')}</b><span>{words('margins and IAE do not exist')}</span></div></div>"
         )
     first = peak_html(reading("Ms", study.margins.Ms), study.margins.Ms)
     cells = "".join(cell_html(cell) for cell in readings(study))
-    return f'<div class="strip" role="status" aria-label="Figures that decide">{first}{cells}</div>'
+    label = words("Figures that decide")
+    return f'<div class="strip" role="status" aria-label="{label}">{first}{cells}</div>'
 
 
 def readings(study: Study) -> list[Reading]:
@@ -35,8 +37,8 @@ def readings(study: Study) -> list[Reading]:
         reading("IAE_setpoint", metrics.setpoint.IAE),
         reading("IAE_disturbance", metrics.disturbance.IAE),
         reading("Mt", judged.Mt),
-        pair("TV set point · load", ("TV_setpoint", "TV_disturbance"), TV),
+        pair(words("TV set point · load"), ("TV_setpoint", "TV_disturbance"), TV),
         reading("overshoot", metrics.setpoint.overshoot),
-        pair("Settling set point · load", ("settling_setpoint", "settling_disturbance"), settling),
+        pair(words("Settling set point · load"), ("settling_setpoint", "settling_disturbance"), settling),
         reading("peak_disturbance", metrics.disturbance.peak),
     ]

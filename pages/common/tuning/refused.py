@@ -9,6 +9,7 @@ from pages.common.parts.rules_choice import rules_choice
 from pages.common.session import state
 from pages.common.tuning.source import FIRST
 from pages.common.tuning.widgets import structure
+from pages.common.words import words
 from simc_core import Plant
 from simc_core.errors import SimcError
 from simc_core.figures import bode_figure, plant_nyquist_figure
@@ -18,7 +19,14 @@ HEIGHT = 420  # px
 
 def choices() -> None:
     """All that may be the cause of a refusal stays to be chosen otherwise."""
-    design_number("tau_c", "τc, exact", quantity="time", key="tau_c_exact", optional=True, placeholder="tight")
+    design_number(
+        "tau_c",
+        words("τc, exact"),
+        quantity="time",
+        key="tau_c_exact",
+        optional=True,
+        placeholder=words("tight"),
+    )
     structure()
     rules_choice()
 
@@ -29,7 +37,7 @@ def refused(plant: Plant, refusal: SimcError) -> None:
         raise refusal
     if state.value("controller") != "own":
         st.button(
-            "Close the loop with settings of my own",
+            words("Close the loop with settings of my own"),
             key="own_instead",
             type="tertiary",
             icon=":material/arrow_forward:",
@@ -38,9 +46,9 @@ def refused(plant: Plant, refusal: SimcError) -> None:
         )
     left, right = st.columns(2, gap="small")
     with left:
-        st.markdown("**Bode diagram of the plant**")
-        show(bode_figure(plant, height=HEIGHT), "plant_bode", "Bode diagram of the plant G")
+        st.markdown(f"**{words('Bode diagram of the plant')}**")
+        show(bode_figure(plant, height=HEIGHT), "plant_bode", words("Bode diagram of the plant G"))
     with right:
-        st.markdown("**Nyquist curve of the plant**")
-        show(plant_nyquist_figure(plant, HEIGHT), "plant_nyquist", "Nyquist curve of the plant G")
-        st.caption("This is L with a proportional controller of gain 1.")
+        st.markdown(f"**{words('Nyquist curve of the plant')}**")
+        show(plant_nyquist_figure(plant, HEIGHT), "plant_nyquist", words("Nyquist curve of the plant G"))
+        st.caption(words("This is L with a proportional controller of gain 1."))

@@ -9,7 +9,7 @@ from pages.common import live
 from pages.common.parts.copyable import copyable
 from pages.common.parts.number_field import design_number
 from pages.common.parts.scales import nearest
-from pages.common.parts.settings_text import ACTIONS, UNITS, as_text, form_shown, sizes
+from pages.common.parts.settings_text import ACTION_NAMED, ACTIONS, UNITS, as_text, form_shown, sizes
 from pages.common.parts.settings_text import structure as formula
 from pages.common.parts.sources import linked
 from pages.common.parts.units import time_text, unit_of
@@ -18,16 +18,23 @@ from pages.common.session.sheet import Sheet
 from pages.common.session.tuning import KINDS
 from pages.common.studies.single import Study
 from pages.common.tuning.source import LABELS, form_control
+from pages.common.words import number, translated, typeset, words
 from simc_core.controllers.forms import Controller
-from simc_core.notation import latex, number
+from simc_core.notation import latex
 from simc_core.plants.models import Model, UnstableDelay
 from simc_core.rules.simc import default_tau_c
 from simc_core.rules.simc_family import multiples_of, presets_of, usual_tau_c
 from simc_core.studies.advice import slowest_useful
+from simc_core.wording import said
 
 STEPS_PER_DECADE = 20
 SAME = 1e-9  # relative; one tau_c typed and chosen
-SLOW = ": slower than the plant alone, or than 8 θ for an integrating one"
+NO_FORM = {  # asked and shown
+    ("series", "ideal"): said("This controller has no series form: shown in the ideal one."),
+    ("series", "parallel"): said("This controller has no series form: shown in the parallel one."),
+    ("ideal", "parallel"): said("This controller has no ideal form: shown in the parallel one."),
+    ("parallel", "ideal"): said("This controller has no parallel form: shown in the ideal one."),
+}
 SHORTEST, LONGEST = -1, 2  # decades of tau_c/theta on the slider
 
 
@@ -39,7 +46,7 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
     model, tau_c = study.model, study.tau_c
     if isinstance(model, UnstableDelay):
         st.markdown(f"$\\tau_c = \\theta$ = **{time_text(tau_c, state.design_now().sheet)}**")
-        st.caption(linked("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24]."))
+        st.caption(linked(words("For an unstable pole the rule knows this choice alone [SK98 eq. 23-24].")))
         st.caption(model_in_use(model))
         return
     place = st.container()
@@ -49,7 +56,7 @@ def tau_c_control(study: Study, slider: bool = True) -> None:
             _slider(model, tau_c)
     design_number(
         "tau_c",
-        "τc, exact",
+        words("τc, exact"),
         show=lambda value: value or tau_c,
         quantity="time",
         key="tau_c_exact",
@@ -64,12 +71,14 @@ def _slider(model: Model, tau_c: float) -> None:
     ratios = [10 ** (i / STEPS_PER_DECADE) for i in range(SHORTEST * STEPS_PER_DECADE, LONGEST * STEPS_PER_DECADE + 1)]
     state.set_widget("tau_c_slider", nearest(ratios, tau_c / scale))
     st.select_slider(
-        "Closed-loop time constant τc",
+        words("Closed-loop time constant τc"),
         ratios,
         format_func=lambda ratio: f"{number(ratio, 3)} {unit}".strip(),
         help=linked(
-            r"The closed-loop time constant $\tau_c$ is the one tuning knob of SIMC: small is fast, large is robust "
-            r"and gentle on the input [SK03 sect. 3.3]. $\tau_c = \theta$ is tight."
+            words(
+                r"The closed-loop time constant $\tau_c$ is the one tuning knob of SIMC: small is fast, large is "
+                r"robust and gentle on the input [SK03 sect. 3.3]. $\tau_c = \theta$ is tight."
+            )
         ),
         key="tau_c_slider",
         on_change=_slid,
@@ -88,9 +97,9 @@ def structure() -> None:
     row = st.container(horizontal=True, vertical_alignment="bottom", gap="xsmall", key="structure")
     if state.value("rule") == "simc":
         row.segmented_control(
-            "Controller",
+            words("Controller"),
             KINDS,
-            help="PI takes the first-order model, PID the second-order one.",
+            help=words("PI takes the first-order model, PID the second-order one."),
             **state.bound("order", show=lambda order: KINDS[order - 1], read=lambda shown: KINDS.index(shown) + 1),
         )
     under = st.container()
@@ -100,8 +109,10 @@ def structure() -> None:
         place=row,
         under=under,
         width=54,
-        help="Set-point weight: the proportional action sees $b\\,r - y$. Less than 1 softens set-point steps; "
-        "stability and load response stay as they are.",
+        help=words(
+            "Set-point weight: the proportional action sees $b\\,r - y$. Less than 1 softens set-point steps; "
+            "stability and load response stay as they are."
+        ),
     )
     design_number(
         "filter",
@@ -109,7 +120,7 @@ def structure() -> None:
         place=row,
         under=under,
         width=60,
-        help="Derivative filter, 0 for none. It acts inside the loop: margins are computed with it.",
+        help=words("Derivative filter, 0 for none. It acts inside the loop: margins are computed with it."),
     )
 
 
@@ -119,7 +130,7 @@ def settings(study: Study) -> None:
     form_control()
     form = form_shown(study.controller, asked)
     if form != asked:
-        st.caption(f"This controller has no {asked} form: shown in the {form} one.")
+        st.caption(translated(NO_FORM[asked, form]))
     shown, sheet = study.controller.in_form(form), state.design_now().sheet
     st.markdown(f"$C(s) = {formula(shown, form)}$")
     st.html(settings_html(shown, sheet))
@@ -134,8 +145,11 @@ def settings_html(controller: Controller, sheet: Sheet) -> str:
         if math.isfinite(value)
     ]
     action = controller.action
-    cells.append(f'<div class="action" title="{ACTIONS[action]}"><small>action</small><b>{action}</b></div>')
-    return f'<div class="settings" role="group" aria-label="Settings">{"".join(cells)}</div>'
+    cells.append(
+        f'<div class="action" title="{translated(ACTIONS[action])}"><small>{words("action")}</small>'
+        f"<b>{translated(ACTION_NAMED[action])}</b></div>"
+    )
+    return f'<div class="settings" role="group" aria-label="{words("Settings")}">{"".join(cells)}</div>'
 
 
 def _presets(study: Study) -> None:
@@ -144,8 +158,8 @@ def _presets(study: Study) -> None:
         for factor, value in multiples_of(study.tuning.rule, study.model).items():
             name = "θ" if factor == 1 else f"{number(factor)} θ"
             usual = math.isclose(value, usual_tau_c(study.tuning.rule, study.model), rel_tol=SAME)
-            _choice(f"multiple_{number(factor)}", name, value, study, "" if usual else f"{factor:g}theta")
-    folded = st.expander("Choices of the literature", key="literature", on_change="rerun")
+            _choice(f"multiple_{factor:g}", name, value, study, "" if usual else f"{factor:g}theta")
+    folded = st.expander(words("Choices of the literature"), key="literature", on_change="rerun")
     if folded.open:
         with folded, st.container(key="presets"):
             for name, value in presets_of(study.tuning.rule, study.model).items():
@@ -156,11 +170,14 @@ def _presets(study: Study) -> None:
 def _choice(key: str, name: str, value: float, study: Study, speed: str) -> None:
     """A button for one choice of tau_c, which stays when the plant changes; one slower than the plant says so."""
     slow = value > slowest_useful(study.loop.plant, study.model) * (1 + SAME)
+    told, time = number(value, 3), time_text(value, state.design_now().sheet)
     st.button(
-        f"{name}: {number(value, 3)}" + (" (slow)" if slow else ""),
+        words("{name}: {tau_c} (slow)", name=name, tau_c=told) if slow else f"{translated(name)}: {told}",
         key=key,
         width="stretch",
-        help=f"τc = {time_text(value, state.design_now().sheet)}" + (SLOW if slow else ""),
+        help=words("τc = {time}: slower than the plant alone, or than 8 θ for an integrating one", time=time)
+        if slow
+        else f"τc = {time}",
         type="primary" if math.isclose(value, study.tau_c, rel_tol=SAME) else "secondary",
         on_click=state.change,
         kwargs={"tau_c": None, "speed": speed},
@@ -170,4 +187,6 @@ def _choice(key: str, name: str, value: float, study: Study, speed: str) -> None
 def model_in_use(model: Model) -> str:
     """Which theta is meant: that of the model, not the plant's dead time."""
     theta = time_text(model.theta, state.design_now().sheet)
-    return f"Model in use: ${latex(model)}$. θ = {theta} is its effective dead time."
+    return words(
+        "Model in use: ${model}$. θ = {theta} is its effective dead time.", model=typeset(latex(model)), theta=theta
+    )

@@ -128,11 +128,17 @@ class Actuation:
 def rest_within(u_min: float, u_max: float) -> None:
     """Raises InvalidParameter unless u = 0, where the loop is at rest, is within the limits, and something else too."""
     if u_min > 0:
-        raise InvalidParameter(said("u_min must be <= 0, where the loop is at rest, found {u_min:g}", u_min=u_min))
+        raise InvalidParameter(
+            said("{name} must be <= 0, where the loop is at rest, found {found:g}", name="u_min", found=u_min)
+        )
     if u_max < 0:
-        raise InvalidParameter(said("u_max must be >= 0, where the loop is at rest, found {u_max:g}", u_max=u_max))
+        raise InvalidParameter(
+            said("{name} must be >= 0, where the loop is at rest, found {found:g}", name="u_max", found=u_max)
+        )
     if u_min == u_max:
-        raise InvalidParameter(said("u_max must be > u_min = {u_min:g}, found {u_max:g}", u_min=u_min, u_max=u_max))
+        raise InvalidParameter(
+            said("{name} must be > u_min = {u_min:g}, found {found:g}", name="u_max", u_min=u_min, found=u_max)
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from pages.common.live.tuning import table
 from pages.common.parts.foreign_text import told
 from pages.common.session import state
 from pages.common.studies.single import Study
+from pages.common.words import words
 from simc_core.errors import InvalidParameter
 from simc_core.numbers import read_number
 from simc_core.plants.models import Model, UnstableDelay
@@ -18,6 +19,7 @@ from simc_core.plants.plant import Plant
 from simc_core.rules.speed import times_theta
 from simc_core.sensitivity.margins import margins
 from simc_core.studies.tau_table import smallest
+from simc_core.wording import said
 
 KEY = "live"
 SAME = 1e-12  # relative; one tau_c as a number and as a choice
@@ -33,19 +35,23 @@ def tuning_instrument(plant: Plant, studies: list[tuple[str, Study]]) -> None:
     held.subject, held.end = subject, float(grid.t[-1])
     name = table.table_name(subject, grid, pins)
     try:
-        with st.spinner("Computing what the slider shows"):
+        with st.spinner(words("Computing what the slider shows")):
             message = held.message("tuning", name, lambda: table.table(subject, grid, pins, name))
     except InvalidParameter as error:
-        st.warning(f"Nothing can be dragged here; *Bode of L* and *Compare* show this design. {told(str(error))}.")
+        st.warning(
+            words(
+                "Nothing can be dragged here; *Bode of L* and *Compare* show this design. {why}.", why=told(str(error))
+            )
+        )
         return
     answers = components.show("tuning", KEY, message, _take)
     components.message(
         key=f"{KEY}_exact",
         data=table.exact(subject, grid, present, name, answers, design.sheet),
     )
-    refused, why = state.memory("live_refusal", lambda: (None, ""))
+    refused, why = state.memory("live_refusal", lambda: (None, ""))  # an error, told anew in another language
     if refused == subject:  # a refusal goes with what it was said of
-        st.warning(why)
+        st.warning(told(why))
 
 
 def _take(release: Mapping) -> None:
@@ -56,7 +62,7 @@ def _take(release: Mapping) -> None:
         tau_c = release["tau_c"] if "tau_c" in release else _for_Ms(subject, release["Ms"])
         state.change(**as_choice(subject.model, tau_c))
     except InvalidParameter as error:
-        state.remember("live_refusal", (subject, told(str(error))))
+        state.remember("live_refusal", (subject, str(error)))
 
 
 def as_choice(model: Model, tau_c: float) -> dict[str, float | str | None]:
@@ -72,6 +78,8 @@ def _for_Ms(subject: table.Subject, typed: str) -> float:
     """The smallest tau_c on the slider with Ms <= the number typed. Raises InvalidParameter where there is none."""
     limit = read_number("Ms", typed)
     if isinstance(subject.model, UnstableDelay):
-        raise InvalidParameter("tau_c cannot be sought for an Ms here: the rule of an unstable pole knows one tau_c")
+        raise InvalidParameter(
+            said("tau_c cannot be sought for an Ms here: the rule of an unstable pole knows one tau_c"),
+        )
     low, high, *_ = table.bounds(subject)
     return smallest(lambda tau_c: margins(subject.loop(tau_c)).Ms, limit, low, high)
