@@ -11,6 +11,7 @@ from babel.messages.pofile import read_po
 from pages.common.words import catalogues, extraction, make
 from pages.common.words.catalogues import ENGLISH, OFFERED
 from simc_core.wording import said
+from tests.pages.tools import address, run_page
 
 CZECH = r"""
 msgid ""
@@ -66,12 +67,36 @@ def incomplete(own: Catalog, template: Catalog) -> list[str]:
             found.append(f"not sure: {message.id}")
         elif not all(any(places(form) == places(each) for each in ids) for form in forms):
             found.append(f"other places: {message.id}: {forms}")
+        elif not all(any(markup(form) == markup(each) for each in ids) for form in forms):
+            found.append(f"other markup: {message.id}: {forms}")
     return found
 
 
 def places(text: str) -> list[str]:
     """Everything in braces, in any order."""
     return sorted(re.findall(r"\{[^{}]*\}", text))
+
+
+def markup(text: str) -> list[object]:
+    """What makes a formula, bold letters, code, a link, an element of HTML, a line."""
+    counted = [text.count(each) for each in ("$", "**", "`", "](", "\n")]
+    return [counted, sorted(re.findall(r"</?\w+|\\[A-Za-z]+", text))]
+
+
+@pytest.mark.parametrize("language", sorted(set(OFFERED) - {ENGLISH}))
+def test_a_language_is_written_in_its_own_letters(language):
+    text = catalogues.place_of(language).read_text(encoding="utf-8")
+    cyrillic = len(re.findall("[а-яА-ЯёЁђјљњћџЂЈЉЊЋЏ]", text))
+    assert cyrillic > 50_000 if language == "ru" else cyrillic == 0
+
+
+@pytest.mark.parametrize("language", sorted(set(OFFERED) - {ENGLISH}))
+@pytest.mark.parametrize("name", ["tuning", "cascade", "from_data"])
+def test_pages_open_in_every_language(name, language):
+    app = run_page(name, lang=language)
+    assert address(app)["lang"] == language
+    if name == "tuning":
+        assert any(button.label.startswith("1,5 θ: 10,5") for button in app.button)
 
 
 def test_what_a_catalogue_lacks_is_found():
@@ -82,6 +107,8 @@ def test_what_a_catalogue_lacks_is_found():
     assert incomplete(own, template) == ["not sure: guessed", "not translated: lag"]
     own["gain {k:g}"].string = "zesílení {K:g}"
     assert incomplete(own, template)[0].startswith("other places: gain {k:g}")
+    own["gain {k:g}"].string = "zesílení ${k:g}$"
+    assert incomplete(own, template)[0].startswith("other markup: gain {k:g}")
 
 
 @pytest.fixture

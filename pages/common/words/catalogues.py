@@ -14,7 +14,14 @@ ENGLISH = "en"
 LOCALE = Path(__file__).parents[2] / "locale"
 # Offered when every sentence of the program is in its catalogue; tests/pages/test_catalogue.py sees to it. Each by the
 # name that it has in itself: čeština, norsk, srpski, русский, Deutsch.
-OFFERED = {ENGLISH: "English", "no": "norsk"}
+OFFERED = {
+    ENGLISH: "English",
+    "cs": "čeština",
+    "no": "norsk",
+    "sr": "srpski",
+    "ru": "русский",
+    "de": "Deutsch",
+}
 
 
 @dataclass(frozen=True, slots=True)
