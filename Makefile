@@ -6,7 +6,7 @@ PORT ?= 8501
 HOST ?= 127.0.0.1
 UV := uv==0.13.9
 
-.PHONY: run test test-library test-browser installed-for-tests programs installed lint doctest docs bench bench-ui screenshots lock catalogue licences clean
+.PHONY: run test prepared programs installed lint doctest docs bench bench-ui screenshots lock catalogue licences clean
 
 run: $(VENV)/run.stamp
 	@echo "SIMC: http://localhost:$(PORT)"
@@ -14,21 +14,15 @@ run: $(VENV)/run.stamp
 	else echo "Open to everybody who reaches this machine: http://$$(hostname):$(PORT). For a class see deploy/README.md"; fi
 	$(BIN)/streamlit run app.py --server.address $(HOST) --server.port $(PORT)
 
-# All at once: a browser that waits for a page leaves a core to the other tests, and those give way to the browsers.
+# Browser tests last: the others say more exactly what broke. Each worker has a server and a browser of its own.
 test:
-	@$(MAKE) --no-print-directory --jobs --output-sync=target installed-for-tests
-	@$(MAKE) --no-print-directory --jobs --output-sync=target lint test-library test-browser
-
-test-library: $(VENV)/dev.stamp
-	nice -n 10 $(BIN)/python -m pytest tests simc_core --doctest-modules --ignore=tests/browser \
-		--ignore=tests/server/outgoing -n auto --dist worksteal
-
-# Each worker has a server and a browser of its own.
-test-browser: $(VENV)/dev.stamp node_modules/.stamp
+	@$(MAKE) --no-print-directory --jobs --output-sync=target prepared
+	$(BIN)/python -m pytest tests simc_core --doctest-modules --ignore=tests/browser --ignore=tests/server/outgoing \
+		-n auto --dist worksteal
 	$(BIN)/python -m pytest tests/browser -n auto --dist loadgroup
 
 # Environments and Debian's programs come from the network, side by side.
-installed-for-tests: $(VENV)/dev.stamp node_modules/.stamp programs
+prepared: lint programs
 
 lint: $(VENV)/dev.stamp node_modules/.stamp
 	$(BIN)/ruff check .

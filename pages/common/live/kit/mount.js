@@ -6,8 +6,9 @@ import { skipTo } from "./skip.js";
 import { unpack } from "./table.js";
 
 /**
- * Streamlit calls what this gives whenever the data are others. Where that happens before the script is loaded, it calls
- * twice, and says of the first call that it is over although the instrument stays: only who is not called again leaves.
+ * Streamlit calls what this gives whenever the data are others. Where that happens before the script is loaded, it
+ * calls twice, and says of the first call that it is over although the instrument stays: only who is not called again
+ * leaves.
  */
 export function mount(name, make) {
   const known = new WeakMap(); // element of the page -> its instrument
