@@ -9,9 +9,11 @@ from tests.browser.tools import ROOT, drawn, idle, wait_until
 AXE = ROOT / "node_modules" / "axe-core" / "axe.min.js"
 # What Streamlit 1.67 itself does wrong, rule -> selectors of its elements; nothing of ours may be added.
 STREAMLITS = {
-    "list": ["[data-testid=stSidebarNavItems]"],  # the groups of st.navigation are div between ul and li
-    "listitem": ["[data-testid=stSidebarNav] li"],  # the same
-    "presentation-role-conflict": ["[data-testid=stFileUploaderDropzone]"],  # has a name and no role
+    # The groups of st.navigation are div between ul and li: structure of its pages, streamlit/streamlit#8399
+    "list": ["[data-testid=stSidebarNavItems]"],
+    "listitem": ["[data-testid=stSidebarNav] li"],
+    # Takes the focus, has a name and no role: streamlit/streamlit#15921
+    "presentation-role-conflict": ["[data-testid=stFileUploaderDropzone]"],
 }
 FAULTS = """async ([known, rules]) => {
     const options = rules ? {runOnly: rules} : {};
