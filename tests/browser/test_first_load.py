@@ -19,19 +19,16 @@ GOALS = {  # MB
     "accuracy": 2.0,
     "sources": 2.0,
 }
-FRESH = {"", "plant", "from_data", "tuning", "cascade"}
 LINK = "plant=2 exp(-s)/(10s%2B1)&order=1&tau_c=3&Ga=3/(10s%2B1)"
 
 
 @pytest.mark.parametrize(("place", "most"), GOALS.items())
-def test_a_deep_link_may_be_the_first_request_of_a_server_and_is_small(request, chromium, place, most):
+def test_a_deep_link_may_be_the_first_request_of_a_fresh_server_and_is_small(fresh_server, chromium, place, most):
     """The first run is slow and another one overtakes it: what it had put into the fields must come all the same.
 
     On a full machine it may be overtaken after it has sent a table, which then comes twice: such a visit is repeated.
-    Pages without fields or instruments are asked of the server that runs.
     """
-    address = request.getfixturevalue("fresh_server") if place in FRESH else lambda: request.getfixturevalue("server")
-    loaded = least_of_two(lambda: first_load(address(), chromium, place), most)
+    loaded = least_of_two(lambda: first_load(fresh_server(), chromium, place), most)
     assert 0.5 < loaded <= most  # half a megabyte is what Streamlit needs at the least: it was counted
 
 

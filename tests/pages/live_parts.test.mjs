@@ -7,6 +7,7 @@ import { marginsOf } from "../../pages/common/live/cascade/loops.js";
 import { nearest, round, text } from "../../pages/common/live/kit/format.js";
 import { crowded, typeFor } from "../../pages/common/live/kit/lecture.js";
 import { letters } from "../../pages/common/live/kit/letters.js";
+import message from "../../pages/common/live/kit/message.js";
 import { mount } from "../../pages/common/live/kit/mount.js";
 import { namesOf } from "../../pages/common/live/kit/names.js";
 import { seen } from "../../pages/common/live/kit/overlay.js";
@@ -192,6 +193,15 @@ test("an instrument that is called again before it is told that it is over stays
   page.live = {}; // its HTML is set anew
   makes({ parentElement: page, data, setTriggerValue() {} });
   assert.deepEqual([begun.length, begun[0].left], [2, 2]);
+});
+
+test("what is said once is heard once, by the instrument of any language", () => {
+  const heard = [];
+  letters("a").open = letters("b").open = ({ kind }) => heard.push(kind);
+  for (const to of ["a", "a", "b"]) message({ data: packed({ to, kind: "lecture", once: "7f", blocks: [] }) });
+  message({ data: packed({ to: "a", kind: "lecture", once: "80", blocks: [] }) });
+  for (const _ of [1, 2]) message({ data: packed({ to: "a", kind: "exact", blocks: [] }) });
+  assert.deepEqual(heard, ["lecture", "lecture", "exact", "exact"]);
 });
 
 function packed(header) {

@@ -5,11 +5,12 @@ import { unpack } from "./table.js";
 
 export default function ({ data }) {
   const message = unpack(data);
-  const box = letters(message.to);
   if (message.once) {
-    if (box.heard === message.once) return; // it stands there in the next run, too
-    box.heard = message.once;
+    globalThis.simcHeard ??= new Set(); // of all languages: it stands there in the next run, too
+    if (globalThis.simcHeard.has(message.once)) return;
+    globalThis.simcHeard.add(message.once);
   }
+  const box = letters(message.to);
   if (box.open) box.open(message);
   else box.waiting.push(message);
 }
