@@ -21,7 +21,7 @@ from simc_core.errors import InvalidParameter
 from simc_core.wording import Text, joined, said
 
 INTEGRATING = (
-    said("integrating"),
+    said("integrating", context="plant"),
     said("double integrating"),
     said("triple integrating"),
     said("fourfold integrating"),
@@ -207,11 +207,11 @@ class Plant:
         """What kind of process it is, in words."""
         words = []
         if self.unstable_poles:
-            words.append(said("unstable"))
+            words.append(said("unstable", context="plant"))
         if self.integrators:
             words.append(INTEGRATING[self.integrators - 1])
         if any(0 <= zeta < 0.7 for _, zeta in self.lag_pairs):
-            words.append(said("oscillating"))
+            words.append(said("oscillating", context="plant"))
         if not words:
             words.append(self._self_regulating_kind())
         if any(T < 0 for T in self.leads) or any(zeta < 0 for _, zeta in self.lead_pairs):
