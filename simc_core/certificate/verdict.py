@@ -208,14 +208,12 @@ def count_unstable(terms: Sequence[Factored]) -> Stability:
 def count_unstable_many(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
     """count_unstable of each, worked on together. Raises InvalidParameter where it does for one of them."""
     loops = [[term for term in terms if term.gain] for terms in loops]
-    functions = [characteristic(terms) for terms in loops]
-    found: dict[int, Stability] = {}
-    for i, f in enumerate(functions):
-        if verdict := _at_infinity(f):
-            found[i] = verdict
+    functions = {i: characteristic(terms) for i, terms in enumerate(loops) if not _vanishes_at_infinity(terms)}
+    found = {i: verdict for i, f in functions.items() if (verdict := _at_infinity(f))}
     for i, decay in _decays({i: terms for i, terms in enumerate(loops) if i not in found}).items():
-        found[i] = Stability("stable", 0, functions[i].neutral, decay)
-    open_ = [i for i in range(len(functions)) if i not in found]
+        found[i] = Stability("stable", 0, functions[i].neutral if i in functions else 0.0, decay)
+    functions |= {i: characteristic(terms) for i, terms in enumerate(loops) if i not in found and i not in functions}
+    open_ = [i for i in functions if i not in found]
     for i, turns in zip(open_, windings([functions[i] for i in open_]), strict=True):
         neutral = functions[i].neutral
         if turns.zeros is None:
@@ -223,7 +221,12 @@ def count_unstable_many(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
             found[i] = _beside(loops[i], turns.touches, neutral)
         else:
             found[i] = Stability("unstable" if turns.zeros else "stable", turns.zeros, neutral)
-    return [found[i] for i in range(len(functions))]
+    return [found[i] for i in range(len(loops))]
+
+
+def _vanishes_at_infinity(terms: Sequence[Factored]) -> bool:
+    """Whether each term has more poles than zeros: |L(inf)| = 0 decides nothing then."""
+    return all([term.relative_degree > 0 for term in terms])
 
 
 def _decays(loops: dict[int, Sequence[Factored]]) -> dict[int, float]:

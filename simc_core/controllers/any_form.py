@@ -36,6 +36,11 @@ class AnyForm:
         form = self.to_parallel()
         return "reverse" if (form.Kp or form.Ki or form.Kd) > 0 else "direct"
 
+    @property
+    def derivative(self) -> bool:
+        """Whether it has derivative action."""
+        return any(getattr(self, name) for name in self.SETTINGS if name in ("tau_D", "Kd"))
+
     def in_form(self, form: str) -> Controller:
         """The same controller in one of FORMS; pure integral action stays what it is. Raises FormError."""
         forms: dict[str, Callable[[], Controller]] = {

@@ -92,7 +92,8 @@ class SeriesPid(AnyForm):
 
     def with_filter(self, ratio: float) -> "SeriesPid":
         """The same controller with tau_F = ratio tau_D."""
-        return replace(self, tau_F=ratio * self.tau_D)
+        tau_F = ratio * self.tau_D
+        return self if tau_F == self.tau_F else replace(self, tau_F=tau_F)
 
     def with_weight(self, b: float) -> "SeriesPid":
         """The same controller with set-point weight b."""
@@ -166,7 +167,8 @@ class IdealPid(AnyForm):
 
     def with_filter(self, ratio: float) -> "IdealPid":
         """The same controller with tau_F = ratio tau_D."""
-        return replace(self, tau_F=ratio * self.tau_D)
+        tau_F = ratio * self.tau_D
+        return self if tau_F == self.tau_F else replace(self, tau_F=tau_F)
 
     def with_weight(self, b: float) -> "IdealPid":
         """The same controller with set-point weight b."""

@@ -50,7 +50,7 @@ class Loop:
         return factored_plant(self.plant) * self.controller.factored
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=1024)  # of a list of loops as many are worked on together
 def factored_plant(plant: Plant) -> Factored:
     """One plant meets many controllers."""
     return plant.factored

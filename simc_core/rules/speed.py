@@ -32,4 +32,5 @@ def tau_c_in_use(model: Model, tau_c: float | None, speed: str, rule: str = "sim
     multiple = times_theta(speed)
     if multiple and model.theta:
         return multiple * model.theta
-    return presets_of(rule, model).get(speed, usual_tau_c(rule, model))
+    named = presets_of(rule, model) if speed else {}
+    return named[speed] if speed in named else usual_tau_c(rule, model)

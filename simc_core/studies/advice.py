@@ -284,7 +284,7 @@ def delivered(controller: Controller) -> str:
     """What the controller is: I, PI or PID."""
     if isinstance(controller, IController):
         return "I"
-    return "PID" if controller.to_parallel().Kd else "PI"
+    return "PID" if controller.derivative else "PI"
 
 
 def in_words(change: dict[str, Any]) -> str:

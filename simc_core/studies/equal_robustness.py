@@ -147,7 +147,7 @@ def detunable(
 
 def filtered(controller: Controller, tau_F: float) -> Controller:
     """With the filter, and c = 1, where there is derivative action."""
-    if isinstance(controller, IController) or not controller.to_parallel().Kd:
+    if isinstance(controller, IController) or not controller.derivative:
         return controller
     return replace(controller, tau_F=tau_F, c=float(tau_F > 0))
 

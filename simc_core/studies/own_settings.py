@@ -52,8 +52,9 @@ def _applies(loop: Loop, found: Margins) -> Iterator[Advice]:
 
 def no_filter(controller: Controller) -> Advice | None:
     """Derivative action without a filter."""
-    form = controller.to_parallel()
-    return Advice("warning", "tau_F = 0", UNFILTERED) if form.Kd and not form.tau_F else None
+    if isinstance(controller, IController) or not controller.derivative or controller.tau_F:
+        return None
+    return Advice("warning", "tau_F = 0", UNFILTERED)
 
 
 def slow_oscillation(plant: Plant, controller: Controller) -> Advice | None:

@@ -60,7 +60,7 @@ def simc_path(plant: Plant, kind: str, criterion: str = "load", tau_F: float | N
         made = [filtered(simc(model, each), FILTER * scale if tau_F is None else tau_F) for each in tau_c.tolist()]
     except SimcError:
         return _EMPTY
-    if bool(made[0].to_parallel().Kd) != (kind == "PID"):
+    if made[0].derivative != (kind == "PID"):
         return _EMPTY
     found = margins_many([Loop(plant, each) for each in made])
     stable = np.flatnonzero([each.stable for each in found])

@@ -99,7 +99,7 @@ def plane_pair(controller: Controller) -> tuple[float, float] | None:
 
 def kind_of(controller: Controller) -> str:
     """PI, or PID where there is derivative action."""
-    return "PID" if controller.to_parallel().Kd else "PI"
+    return "PID" if controller.derivative else "PI"
 
 
 def _front(question: Question, kind: str) -> list[Optimum]:

@@ -55,12 +55,11 @@ def mesh(modes: np.ndarray, length: float) -> np.ndarray:
     modes, size = modes[size * length > 1e-3], size[size * length > 1e-3]
     if not len(modes):
         return np.array([length])
-    reach = 4 * NODES_PER_ELEMENT / math.e * TOLERANCE ** (1 / NODES_PER_ELEMENT) / size
-    decay = np.maximum(-modes.real, 0.0) / NODES_PER_ELEMENT
+    reach = (4 * NODES_PER_ELEMENT / math.e * TOLERANCE ** (1 / NODES_PER_ELEMENT) / size).tolist()
+    decay = (np.maximum(-modes.real, 0.0) / NODES_PER_ELEMENT).tolist()
     ends, steps = 0.0, []
     while ends < length * (1 - 1e-12):
-        with np.errstate(over="ignore"):
-            allowed = float(np.min(reach * np.exp(np.minimum(decay * ends, 700.0))))
+        allowed = min([at * math.exp(min(rate * ends, 700.0)) for at, rate in zip(reach, decay, strict=True)])
         step = length * 2.0 ** math.floor(math.log2(min(allowed / length, 1.0)))
         while step > length - ends + 1e-12 * length:
             step /= 2
