@@ -226,7 +226,7 @@ def count_unstable_many(loops: Sequence[Sequence[Factored]]) -> list[Stability]:
 
 def _vanishes_at_infinity(terms: Sequence[Factored]) -> bool:
     """Whether each term has more poles than zeros: |L(inf)| = 0 decides nothing then."""
-    return all([term.relative_degree > 0 for term in terms])
+    return all(term.relative_degree > 0 for term in terms)
 
 
 def _decays(loops: dict[int, Sequence[Factored]]) -> dict[int, float]:

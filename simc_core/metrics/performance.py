@@ -37,6 +37,7 @@ from simc_core.wording import said
 LARGEST_OFFSET = 1e-7  # of the largest value: with more at rest the integrals diverge
 INTEGRAL_PRECISION = 1e-6  # relative, of an integral
 MARCH_ROUNDING = 1e-12  # of the largest y, that a march leaves in y
+TARGETS = np.array([[1.0], [0.0]])  # where y ends after a step of r, and of d
 TINY = 1e-300
 
 
@@ -173,9 +174,9 @@ def _of_single(loop: Loop) -> Performance:
 def _measured(loops: Sequence[Loop], course: UnitResponses, decays: Sequence[float]) -> list[Performance | SimcError]:
     """The metrics of loops whose responses, and decay as far as certified, are known, or why there are none."""
     n, found = len(loops), metrics_of(both_steps(course))
-    refusals = [_refusal(course, i) for i in range(n)]
+    refusals = _refusals(course)
     pairs = [(found[i], found[n + i]) for i in range(n)]
-    tails = [[_Tail(each, course, source, i) for source, each in enumerate(pair)] for i, pair in enumerate(pairs)]
+    tails = _tails(pairs, course)
     rates = [max(one.negligible_rate(), other.negligible_rate()) for one, other in tails]
     open_ = [i for i in range(n) if refusals[i] is None and decays[i] < rates[i]]
     slower = zip(open_, _no_mode_is_slower([loops[i] for i in open_], [rates[i] for i in open_]), strict=True)
@@ -198,23 +199,25 @@ OFFSET = (  # after a step of r, and of d
 )
 
 
-def _refusal(course: UnitResponses, i: int) -> NotStable | None:
-    """Why the integrals of a loop diverge, or cannot be known."""
-    last = course.first[i + 1] - 1
-    if not course.at_rest[i]:
-        reached = course.begin[last] + course.length[last]
-        return NotStable(
-            said(
-                "the loop must come to rest within {reached:.3g}, found one too close to its stability limit",
-                reached=float(reached),
+def _refusals(course: UnitResponses) -> list[NotStable | None]:
+    """Of each loop, why the integrals diverge, or cannot be known."""
+    right = np.add.reduce(course.coefficients[0], axis=-1)  # y at the end of each piece
+    offsets = right[:, course.first[1:] - 1] - TARGETS
+    largest = np.maximum.reduceat(np.abs(right), course.first[:-1], axis=1)
+    remain = np.abs(offsets) > LARGEST_OFFSET * np.maximum(largest, TINY)
+    reasons: list[NotStable | None] = [None] * len(course.at_rest)
+    for source, i in np.argwhere(remain)[::-1].tolist():  # of two, that of the set point is told
+        reasons[i] = NotStable(OFFSET[source].put(offset=-float(offsets[source, i])))
+    for i, at_rest in enumerate(course.at_rest):
+        if not at_rest:
+            last = course.first[i + 1] - 1
+            reasons[i] = NotStable(
+                said(
+                    "the loop must come to rest within {reached:.3g}, found one too close to its stability limit",
+                    reached=float(course.begin[last] + course.length[last]),
+                )
             )
-        )
-    right = np.add.reduce(course.coefficients[0, :, course.first[i] : last + 1], axis=-1)
-    offsets, largest = right[:, -1] - (1.0, 0.0), np.maximum.reduce(np.abs(right), axis=1)
-    for found, offset, size in zip(OFFSET, offsets.tolist(), largest.tolist(), strict=True):
-        if abs(offset) > LARGEST_OFFSET * max(size, 1e-300):
-            return NotStable(found.put(offset=-offset))
-    return None
+    return reasons
 
 
 def _no_mode_is_slower(loops: Sequence[Loop], rates: Sequence[float]) -> list[bool]:
@@ -228,19 +231,37 @@ def _no_mode_is_slower(loops: Sequence[Loop], rates: Sequence[float]) -> list[bo
         return [_no_mode_is_slower([loop], [rate])[0] for loop, rate in zip(loops, rates, strict=True)]
 
 
-class _Tail:
-    """What the integrals of the i-th loop miss after the end of its course.
+def _tails(pairs: Sequence[tuple[StepMetrics, StepMetrics]], course: UnitResponses) -> list[list["_Tail"]]:
+    """Of each loop, behind its step of the set point and of the load."""
+    last = course.first[1:] - 1
+    ends = course.coefficients[0][:, last] @ ENDS.T - TARGETS[..., None]  # (2, n, 2), of the last piece
+    length, begin = course.length[last], course.begin[last]
+    rows = zip(pairs, (begin + length).tolist(), length.tolist(), *ends.tolist(), strict=True)
+    return [[_Tail(found, T, h, *at) for found, at in zip(pair, both, strict=True)] for pair, T, h, *both in rows]
 
-    source: 0, a step of the set point, or 1, of the load.
+
+@dataclass(frozen=True, slots=True)
+class _Tail:
+    """What the integrals of a step miss after the instant T, where its course ends.
+
+    length: of the last piece.   left, right: y at its ends, less the target.
     """
 
-    def __init__(self, found: StepMetrics, course: UnitResponses, source: int, i: int):
-        last = course.first[i + 1] - 1
-        self.found, self.length = found, float(course.length[last])
-        self.T = float(course.begin[last]) + self.length
-        self.left, self.right = (course.coefficients[0, source, last] @ ENDS.T - (1.0, 0.0)[source]).tolist()
-        self.rounding = MARCH_ROUNDING * abs(found.peak)
-        self.largest = max(abs(self.left), abs(self.right))
+    found: StepMetrics
+    T: float
+    length: float
+    left: float
+    right: float
+
+    @property
+    def rounding(self) -> float:
+        """Of y."""
+        return MARCH_ROUNDING * abs(self.found.peak)
+
+    @property
+    def largest(self) -> float:
+        """What is left of the step."""
+        return max(abs(self.left), abs(self.right))
 
     def negligible_rate(self) -> float:
         """A mode that decays at this rate, or faster, adds less than is known of any integral."""
