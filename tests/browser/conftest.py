@@ -65,9 +65,14 @@ def open_page(request, server, chromium, idle_tabs) -> Iterator[Callable[..., Pa
     failed_before = request.session.testsfailed
 
     def start(
-        address: str, width: int = 1280, theme: str = "light", touch: bool = False, locale: str = "en-US"
+        address: str,
+        width: int = 1280,
+        theme: str = "light",
+        touch: bool = False,
+        locale: str = "en-US",
+        mobile: bool = False,
     ) -> Page:
-        how = {"has_touch": touch, "locale": locale}
+        how = {"has_touch": touch, "locale": locale, "is_mobile": mobile}
         tab = next((tab for tab in idle_tabs if tab.how == how), None)
         if tab is None:
             tab = Tab(chromium, how)

@@ -8,6 +8,7 @@ import socket
 import subprocess
 import time
 from pathlib import Path
+from urllib.parse import urlsplit
 from urllib.request import urlopen
 
 import pytest
@@ -21,7 +22,7 @@ from simc_core import Plant
 from tests.browser.tools import ROOT, Server, idle, watch
 
 NODES = ("a", "b")
-pytestmark = pytest.mark.xdist_group("nginx")  # they share the three processes, and the last one stops one of them
+pytestmark = pytest.mark.xdist_group("nginx")  # they share nginx and a process, which the last one stops
 PATIENCE = 30  # s
 
 
@@ -32,15 +33,16 @@ def free_port() -> int:
 
 
 @pytest.fixture(scope="module")
-def cluster(tmp_path_factory):
-    """The address of nginx and the two servers behind it."""
+def cluster(tmp_path_factory, server):
+    """The address of nginx and the two processes behind it: the server of all tests, and one that may be stopped."""
     nginx = shutil.which("nginx", path=os.environ["PATH"] + ":/usr/sbin")
     assert nginx, "apt-get install nginx"
     folder, port = tmp_path_factory.mktemp("nginx"), free_port()
-    servers = [Server(), Server()]
+    second = Server()
+    ports = {"a": urlsplit(server).port, "b": second.port}
     site = (ROOT / "deploy" / "nginx.conf").read_text()
-    site = site.replace("127.0.0.1:8501", f"127.0.0.1:{servers[0].port}")
-    site = site.replace("127.0.0.1:8502", f"127.0.0.1:{servers[1].port}")
+    site = site.replace("127.0.0.1:8501", f"127.0.0.1:{ports['a']}")
+    site = site.replace("127.0.0.1:8502", f"127.0.0.1:{ports['b']}")
     (folder / "site.conf").write_text(site.replace("listen 80;", f"listen 127.0.0.1:{port};"))
     temporary = "".join(
         f"{name}_temp_path {folder}/{name};" for name in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
@@ -51,12 +53,11 @@ def cluster(tmp_path_factory):
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         answered(port)
-        yield f"http://127.0.0.1:{port}", dict(zip(NODES, servers, strict=True))
+        yield f"http://127.0.0.1:{port}", second
     finally:
         process.terminate()
         process.wait(10)
-        for server in servers:
-            server.stop()
+        second.stop()
 
 
 def answered(port: int) -> None:
@@ -118,8 +119,8 @@ def test_pages_uploads_and_downloads_work(cluster, chromium, tmp_path, node):
 
 
 def test_whoever_loses_a_process_goes_on_at_the_other(cluster, chromium):
-    url, servers = cluster
-    servers["b"].stop()
+    url, second = cluster
+    second.stop()
     context = chromium.new_context()
     context.add_cookies([{"name": "simc_node", "value": "b", "url": url}])
     page = context.new_page()

@@ -1,10 +1,10 @@
 """The policy of our answers in a real browser: pages work under it, and what it forbids does not happen."""
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from threading import Thread
 
-import pytest
 from playwright.sync_api import expect
 
 from tests.browser.tools import Server
@@ -24,6 +24,7 @@ PAGES = (
     "accuracy",
     "sources",
 )
+REFUSED = "chrome-error://chromewebdata/"
 
 
 def test_what_the_policy_forbids_does_not_happen(server, chromium):
@@ -61,27 +62,35 @@ class CoursePage(BaseHTTPRequestHandler):
         pass
 
 
-@pytest.fixture
+@contextmanager
 def course() -> Iterator[str]:
+    """The address of a course page; each one is another origin."""
     with ThreadingHTTPServer(("127.0.0.1", 0), CoursePage) as page:
         Thread(target=page.serve_forever, daemon=True).start()
         yield f"http://127.0.0.1:{page.server_port}"
         page.shutdown()
 
 
-@pytest.mark.parametrize("named", [True, False])
-def test_another_page_frames_ours_only_when_it_is_named(chromium, course, named):
-    server = Server(environment={"SIMC_FRAMED_BY": course if named else ""})
-    try:
+def test_a_page_that_is_named_frames_ours_and_another_one_does_not(chromium):
+    with course() as named, course() as other:
+        server = Server(environment={"SIMC_FRAMED_BY": named})
         page = chromium.new_page()
-        page.goto(f"{course}/?{server.url}/plant")
-        if named:
+        try:
+            page.goto(f"{named}/?{server.url}/plant")
             expect(page.frame_locator("iframe").locator(".js-plotly-plot").first).to_be_visible(timeout=30_000)
-        else:
-            assert page.frames[1].url == "chrome-error://chromewebdata/"
-        page.close()
-    finally:
-        server.stop()
+            page.goto(f"{other}/?{server.url}/plant")
+            assert page.frames[1].url == REFUSED
+        finally:
+            page.close()
+            server.stop()
+
+
+def test_no_other_page_frames_ours_when_none_is_named(server, chromium):
+    page = chromium.new_page()
+    with course() as other:
+        page.goto(f"{other}/?{server}/plant")
+        assert page.frames[1].url == REFUSED
+    page.close()
 
 
 def test_the_settings_are_copied_as_they_are_shown(server, open_page):

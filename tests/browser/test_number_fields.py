@@ -13,9 +13,12 @@ PLANT = "2 exp(-3 s)/((20 s + 1) (4 s + 1))"
 PRINTED = "                2\n  exp(-3*s) * -------\n              5 s + 1\n"  # as a program prints it, three lines
 
 
-@pytest.fixture(params=LOCALES)
+@pytest.fixture(params=[pytest.param(locale, marks=pytest.mark.xdist_group(locale)) for locale in LOCALES])
 def opened(request, server, open_page) -> Callable[[str], Page]:
-    """opened(place): the example on this page in a browser that is set to this country."""
+    """opened(place): the example on this page in a browser that is set to this country.
+
+    One worker has all tests of a country: a tab of another country must load and compile everything for itself.
+    """
 
     def start(place: str) -> Page:
         page = open_page(f"{server}/{place}?" + urlencode({"plant": PLANT}), locale=request.param)

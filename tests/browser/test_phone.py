@@ -1,11 +1,12 @@
 """A phone and a tablet: what is moved and what it moves on one screen, places for fingers, nothing over a legend."""
 
 import re
+from collections.abc import Callable
 
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.tools import drawn, fits, idle, picture, wait_until
+from tests.browser.tools import drawn, fits, picture, wait_until
 
 FINGER = 44  # px
 # What can be touched and is smaller than a finger: of it, or of the place around it that takes a touch for it.
@@ -30,20 +31,13 @@ ALIKE = """([one, other]) => {
 
 
 @pytest.fixture
-def phone(chromium, server):
-    """A page on a phone: 390 x 844, fingers, no mouse."""
-    context = chromium.new_context(
-        viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True, reduced_motion="reduce"
-    )
-    page = context.new_page()
-    page.set_default_timeout(60_000)
-    yield page
-    context.close()
+def on_a_phone(open_page, server) -> Callable[[str], Page]:
+    """on_a_phone(place): a page on a phone: 390 x 844, fingers, no mouse."""
+    return lambda place: open_page(f"{server}/{place}", 390, touch=True, mobile=True)
 
 
-def test_the_slider_and_the_curve_it_moves_are_on_one_screen(phone, server):
-    phone.goto(f"{server}/tuning")
-    idle(phone)
+def test_the_slider_and_the_curve_it_moves_are_on_one_screen(on_a_phone):
+    phone = on_a_phone("tuning")
     expect(phone.locator(".live")).to_have_attribute("data-exact", re.compile("true"))
     track, plot = (phone.locator(each).first.bounding_box() for each in (".track", "figure[data-panel=y] .plot"))
     assert track["y"] >= 0
@@ -75,9 +69,8 @@ def pinch(page: Page) -> None:
 
 
 @pytest.mark.parametrize("place", ["tuning", "cascade", "half_rule"])
-def test_what_is_touched_has_the_size_of_a_finger(place, phone, server):
-    phone.goto(f"{server}/{place}")
-    idle(phone)
+def test_what_is_touched_has_the_size_of_a_finger(place, on_a_phone):
+    phone = on_a_phone(place)
     drawn(phone)
     assert phone.evaluate(SMALL, FINGER) == []
     assert fits(phone)

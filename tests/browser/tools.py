@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from urllib.request import urlopen
 
-from playwright.sync_api import Browser, Locator, Page, TimeoutError
+from playwright.sync_api import Browser, Error, Locator, Page, TimeoutError
 
 ROOT = Path(__file__).parents[2]
 PICTURES = Path(__file__).parent / "screenshots"
@@ -20,6 +20,7 @@ THEMES = ("light", "dark")
 CHROMIUM = "chromium-headless-shell"
 ARGS = [
     "--font-render-hinting=none",  # text as wide as in a window
+    "--js-flags=--no-maglev --no-turbofan",  # a page is gone before code that is compiled so well has paid for itself
     "--no-sandbox",
     "--disable-gpu",
     "--disable-quic",
@@ -30,6 +31,18 @@ ARGS = [
     "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
 ]
 IDLE = "[data-testid=stApp][data-test-script-state=notRunning]"
+LOOK = 0.05  # seconds from a look at the page to the next
+# Whether it was found at rest so many times in a row, before the end of our patience.
+RESTED = """([idle, looks, wait, patience]) => new Promise(done => {
+    const end = performance.now() + patience;
+    let quiet = 0;
+    const look = () => {
+        quiet = document.querySelector(idle)?.checkVisibility() ? quiet + 1 : 0;
+        if (quiet === looks || performance.now() > end) done(quiet === looks);
+        else setTimeout(look, wait);
+    };
+    setTimeout(look, wait);
+})"""
 DRAWN = """() => {
     const seen = what => [...document.querySelectorAll(what)].filter(element => element.checkVisibility());
     return seen('[data-testid=stPlotlyChart]').every(figure => figure.querySelector('.main-svg'))
@@ -95,12 +108,18 @@ class Server:
 
 
 def idle(page: Page, settle: float = 0.25) -> None:
-    """Wait until the script has run and stays at rest for `settle` seconds."""
-    quiet = 0.0
-    while quiet < settle:
+    """Wait until the script has run and stays at rest for `settle` seconds.
+
+    The page looks for itself: each look asked for from here is work of four processes.
+    """
+    end = time.monotonic() + PATIENCE
+    while True:
         page.wait_for_selector(IDLE)
-        page.wait_for_timeout(50)
-        quiet = quiet + 0.05 if page.query_selector(IDLE) else 0.0
+        try:
+            assert page.evaluate(RESTED, [IDLE, round(settle / LOOK), 1000 * LOOK, 1000 * PATIENCE]), "it does not rest"
+            return
+        except Error:  # another page has come meanwhile, and took with it what was looking
+            assert time.monotonic() < end, f"waited {PATIENCE} s in vain until the page is at rest"
 
 
 def drawn(page: Page) -> None:
