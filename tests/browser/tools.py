@@ -118,7 +118,9 @@ def idle(page: Page, settle: float = 0.25) -> None:
         try:
             assert page.evaluate(RESTED, [IDLE, round(settle / LOOK), 1000 * LOOK, 1000 * PATIENCE]), "it does not rest"
             return
-        except Error:  # another page has come meanwhile, and took with it what was looking
+        except Error as error:
+            if "context was destroyed" not in str(error):  # another page has come, and took with it what was looking
+                raise
             assert time.monotonic() < end, f"waited {PATIENCE} s in vain until the page is at rest"
 
 
