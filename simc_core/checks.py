@@ -1,14 +1,14 @@
 """The door: bounds of numbers and tuples, checked once, where a value enters the core."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Collection, Iterable
 from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from simc_core.errors import InvalidParameter
-from simc_core.wording import said
+from simc_core.errors import InvalidParameter, SimcError
+from simc_core.wording import joined, said
 
 LONGEST_TIME = 1e9  # largest time constant or dead time, and inverse of the smallest
 LARGEST_GAIN = 1e12  # largest gain, and inverse of the smallest
@@ -136,6 +136,30 @@ def array(name: str, values: ArrayLike, most: int) -> np.ndarray:
             )
         )
     return found
+
+
+def one_of(
+    name: str, value: object, choices: Collection[str], refusal: Callable[[str], SimcError] = InvalidParameter
+) -> str:
+    """`value`, which must be one of `choices`; "" among them is not told.
+
+    Raises InvalidParameter, or what `refusal` makes of the message.
+    """
+    if isinstance(value, str) and value in choices:  # a list, which no dict can look up, is refused like any other
+        return value
+    told = joined(choice for choice in choices if choice)
+    raise refusal(said("{name} must be one of {choices}, found {found}", name=name, choices=told, found=_shown(value)))
+
+
+def text(name: str, value: object, longest: int) -> str:
+    """`value`, which must be a str of at most `longest` characters."""
+    if not isinstance(value, str):
+        raise InvalidParameter(said("{name} must be text, found {kind}", name=name, kind=type(value).__name__))
+    if len(value) > longest:
+        raise InvalidParameter(
+            said("{name} may have at most {longest} characters, found {n}", name=name, longest=longest, n=len(value))
+        )
+    return value
 
 
 def _shown(value: object) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 
 from simc_core import checks
 from simc_core.controllers.forms import IdealPid
-from simc_core.errors import InvalidParameter, NoOptimum, NotIdentifiable, SimcError
+from simc_core.errors import NoOptimum, NotIdentifiable, SimcError
 from simc_core.identification.cloud import Cloud, Uncertain, clouds
 from simc_core.identification.cloud_peaks import grid, peaks, scales
 from simc_core.identification.estimator.held_input import Array
@@ -109,10 +109,7 @@ def auto_tune(uncertain: Uncertain, kind: str = "PI", probability: float = 0.95)
     >>> damped.performance.disturbance.IAE > fast.performance.disturbance.IAE
     True
     """
-    if kind not in KINDS:
-        raise InvalidParameter(
-            said("kind must be one of {kinds}, found {found!r}", kinds=", ".join(KINDS), found=str(kind)[:20])
-        )
+    checks.one_of("kind", kind, KINDS)
     probability = checks.real("probability", probability, 0.5, 0.999)
     drawn = clouds(uncertain)
     omega = grid(drawn)

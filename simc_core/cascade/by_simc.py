@@ -8,6 +8,7 @@ tau_F = tau_c/20. The loops separate where tau_c_outer >= SEPARATE tau_c_inner.
 from collections.abc import Callable
 from dataclasses import replace
 
+from simc_core import checks
 from simc_core.cascade.design import CascadeDesign, on_inner_loop, speed_of_loop
 from simc_core.controllers.forms import Controller, IController, IdealPid, SeriesPid
 from simc_core.errors import InvalidParameter
@@ -130,9 +131,7 @@ def single_loop(primary: Plant, secondary: Plant, kind: str = "PID", Ms: float =
 
 
 def _order(name: str, kind: str) -> int:
-    if kind not in KINDS:
-        raise InvalidParameter(said("{name} must be PI or PID, found {found}", name=name, found=str(kind)[:20]))
-    return KINDS.index(kind) + 1
+    return KINDS.index(checks.one_of(name, kind, KINDS)) + 1
 
 
 def _tuned(

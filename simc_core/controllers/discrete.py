@@ -84,9 +84,7 @@ LAWS = {"backward": Law(backward, backward_response), "tustin": Law(tustin, tust
 
 def known_law(law: str) -> str:
     """`law` if it is one of LAWS. Raises InvalidParameter."""
-    if law not in LAWS:
-        raise InvalidParameter(said("law must be one of {laws}, found {law!r}", laws=", ".join(LAWS), law=law))
-    return law
+    return checks.one_of("law", law, LAWS)
 
 
 def scans(name: str, value: int) -> int:

@@ -107,15 +107,7 @@ def trends_of(given: Trend | Sequence[Trend]) -> list[Trend]:
 
 
 def _structure(name: str) -> str:
-    if name not in STRUCTURES:
-        raise InvalidParameter(
-            said(
-                "structure must be one of {structures}, found {found!r}",
-                structures=", ".join(STRUCTURES),
-                found=str(name)[:40],
-            )
-        )
-    return name
+    return checks.one_of("structure", name, STRUCTURES)
 
 
 def response_of(trends: list[Trend]) -> float:

@@ -54,14 +54,7 @@ class Uncertainty:
     freedom: float
 
     def __post_init__(self) -> None:
-        if self.structure not in STRUCTURES:
-            raise InvalidParameter(
-                said(
-                    "structure must be one of {structures}, found {found!r}",
-                    structures=", ".join(STRUCTURES),
-                    found=str(self.structure)[:40],
-                )
-            )
+        checks.one_of("structure", self.structure, STRUCTURES)
         m = 1 + len(STRUCTURES[self.structure].lags) + len(STRUCTURES[self.structure].gains)
         for name, wanted in (("values", m), ("covariance", m * (m + 1) // 2)):
             given = checks.items(name, getattr(self, name), 100)

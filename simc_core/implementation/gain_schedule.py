@@ -108,14 +108,7 @@ class GainSchedule:
                 raise InvalidParameter(
                     said("gains must have one sign, found {k:g} in row {row}", k=model.plant.k, row=i + 1)
                 )
-        if self.between not in BETWEEN:
-            raise InvalidParameter(
-                said(
-                    "between must be one of {choices}, found {between!r}",
-                    choices=", ".join(BETWEEN),
-                    between=self.between,
-                )
-            )
+        checks.one_of("between", self.between, BETWEEN)
 
     @property
     def rows(self) -> tuple[Controller, ...]:
@@ -124,10 +117,7 @@ class GainSchedule:
 
     def model(self, x: float, gain: str = "linear") -> Model:
         """The plant at the scheduling value x, its gain linear or exponential between rows, the rest linear."""
-        if gain not in GAIN_OF_PLANT:
-            raise InvalidParameter(
-                said("gain must be one of {choices}, found {gain!r}", choices=", ".join(GAIN_OF_PLANT), gain=gain)
-            )
+        checks.one_of("gain", gain, GAIN_OF_PLANT)
         row, part = self._place(x)
         one, other = self.models[row], self.models[row + 1]
 

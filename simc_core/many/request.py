@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import Any
 
+from simc_core import checks
 from simc_core.controllers.forms import FORMS, Controller, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import InvalidParameter, SimcError
 from simc_core.numbers import read_number
 from simc_core.plants.parse import parse_plant
 from simc_core.plants.plant import Plant
-from simc_core.wording import joined, said
+from simc_core.wording import said
 
 LONGEST_CELL = 2000  # characters of a plant
 LONGEST_WORD = 100  # of any other cell
@@ -100,17 +101,7 @@ def word(row: Mapping[str, Any], name: str) -> str:
     if _empty(value):
         return ""
     text = str(value).strip()
-    longest = LONGEST_CELL if name == "plant" else LONGEST_WORD
-    if len(text) > longest:
-        raise InvalidParameter(
-            said(
-                "{name} may have at most {longest} characters, found {found}",
-                name=name,
-                longest=longest,
-                found=len(text),
-            )
-        )
-    return text
+    return checks.text(name, text, LONGEST_CELL if name == "plant" else LONGEST_WORD)
 
 
 def number(row: Mapping[str, Any], name: str) -> float | None:
@@ -127,18 +118,9 @@ def number(row: Mapping[str, Any], name: str) -> float | None:
 
 def one_of(row: Mapping[str, Any], name: str, choices: tuple[str, ...]) -> str:
     """A cell with one of `choices`, whatever its letters' size; the first where it is empty."""
-    text = word(row, name)
-    for choice in choices:
-        if text.lower() in (choice.lower(), ""):
-            return choice
-    raise InvalidParameter(
-        said(
-            "{name} must be {choices}, found {given!r}",
-            name=name,
-            choices=joined(choices, said(" or ")),
-            given=text[:20],
-        )
-    )
+    text = word(row, name) or choices[0]
+    known = {choice.lower(): choice for choice in choices}
+    return checks.one_of(name, known.get(text.lower(), text), choices)
 
 
 def _empty(value: Any) -> bool:

@@ -8,6 +8,7 @@
 import re
 from fractions import Fraction
 
+from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.numbers.refusal import no_number, quoted
 from simc_core.numbers.signs import INVISIBLE, LOWERED, SUPERSCRIPTS, tidied
@@ -65,17 +66,7 @@ def read_number(name: str, text: str) -> float:
 
 def read_exact(name: str, text: str) -> Fraction:
     """As `read_number`, without rounding."""
-    if not isinstance(text, str):
-        raise InvalidParameter(said("{name} must be text, found {kind}", name=name, kind=type(text).__name__))
-    if len(text) > LONGEST_NUMBER:
-        raise InvalidParameter(
-            said(
-                "{name} may have at most {longest_number} characters, found {text}",
-                name=name,
-                longest_number=LONGEST_NUMBER,
-                text=len(text),
-            )
-        )
+    checks.text(name, text, LONGEST_NUMBER)
     return exact(name, text)
 
 

@@ -57,17 +57,7 @@ def read_numbers(name: str, text: str) -> list[float]:
 
 def read_exact_numbers(name: str, text: str) -> list[Fraction]:
     """As `read_numbers`, without rounding."""
-    if not isinstance(text, str):
-        raise InvalidParameter(said("{name} must be text, found {kind}", name=name, kind=type(text).__name__))
-    if len(text) > LONGEST_LIST:
-        raise InvalidParameter(
-            said(
-                "{name} may have at most {longest_list} characters, found {text}",
-                name=name,
-                longest_list=LONGEST_LIST,
-                text=len(text),
-            )
-        )
+    checks.text(name, text, LONGEST_LIST)
     plain = COMMENT.sub("", tidied(text.strip().strip(INVISIBLE))).strip().rstrip(";").strip()
     if assigned := NAME.match(plain):
         plain = plain[assigned.end() :].strip()

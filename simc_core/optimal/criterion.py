@@ -13,13 +13,12 @@ from typing import TypeVar
 
 import numpy as np
 
+from simc_core import checks
 from simc_core.controllers.forms import ParallelPid
-from simc_core.errors import InvalidParameter
 from simc_core.metrics.performance import both_steps
 from simc_core.metrics.step_metrics import measures
 from simc_core.plants.plant import Plant
 from simc_core.simulation.one_delay.march import march
-from simc_core.wording import said
 
 CRITERIA = ("load", "setpoint", "J")
 MOST_TO_REST = 250  # elements; an optimal loop takes some thirty
@@ -42,12 +41,7 @@ class Criterion:
     references: References | None = None
 
     def __post_init__(self) -> None:
-        if self.name not in CRITERIA:
-            raise InvalidParameter(
-                said(
-                    "criterion must be one of {criteria}, found {name!r}", criteria=", ".join(CRITERIA), name=self.name
-                )
-            )
+        checks.one_of("criterion", self.name, CRITERIA)
 
     @property
     def weighs_derivative(self) -> float:

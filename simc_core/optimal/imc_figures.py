@@ -22,12 +22,10 @@ from numpy.polynomial import legendre
 from simc_core import checks
 from simc_core.certificate.verdict import stability
 from simc_core.controllers.forms import IdealPid
-from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import Loop
 from simc_core.plants.plant import Plant
 from simc_core.sensitivity.delay_bound import delay_bound
 from simc_core.sensitivity.margins import margins
-from simc_core.wording import said
 
 BETA = {"PI": 0.0, "PID": 0.5}
 SETTLED, MOST_INTERVALS = 1e-15, 5000
@@ -58,10 +56,8 @@ def imc_point(ratio: float, kind: str = "PID") -> ImcPoint:
 
 def imc_loop(ratio: float, kind: str) -> Loop:
     """L of the module docstring, as an integrator with dead time 1."""
-    if kind not in BETA:
-        raise InvalidParameter(said("kind must be PI or PID, found {kind!r}", kind=kind))
+    beta = BETA[checks.one_of("kind", kind, BETA)]
     ratio = checks.positive_time("epsilon/theta", ratio)
-    beta = BETA[kind]
     return Loop(Plant(1.0, 1.0, integrators=1), IdealPid(1 / (ratio + beta), math.inf, beta))
 
 

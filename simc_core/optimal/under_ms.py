@@ -11,6 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from simc_core import checks
 from simc_core.controllers.forms import IdealPid, SeriesPid
 from simc_core.errors import InvalidParameter, NoOptimum
 from simc_core.loops.loop import Loop
@@ -78,8 +79,7 @@ class Search:
     guess: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        if self.kind not in KINDS:
-            raise InvalidParameter(said("kind must be PI or PID, found {kind!r}", kind=self.kind))
+        checks.one_of("kind", self.kind, KINDS)
         if self.kind == "PI":
             return
         if not self.tau_F and self.criterion.name != "load":

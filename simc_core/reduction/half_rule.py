@@ -38,7 +38,6 @@ from simc_core.reduction.zeros import Comparisons, Lag, LineInTheta, Removal, re
 from simc_core.reduction.zeros_1998 import remove_leads_1998
 from simc_core.rules.simc import simc
 from simc_core.sensitivity.margins import margins
-from simc_core.wording import said
 
 RULES = ("2003", "1998")
 MOST_PROBES = 400  # of theta; median 18 for two zeros, 100 for six, 240 for a dozen. Beyond this some may be missed
@@ -96,8 +95,7 @@ def half_rule(plant: Plant, order: int = 1, h: float = 0.0, rules: str = "2003",
     order = checks.whole("order", order, 1, 2)
     h, tau_F = checks.optional_time("h", h), checks.optional_time("tau_F", tau_F)
     late = h + tau_F
-    if rules not in RULES:
-        raise InvalidParameter(said('rules must be "2003" or "1998", found {rules!r}', rules=rules))
+    checks.one_of("rules", rules, RULES)
     parts = dynamics(plant)
     removed = lru_cache(maxsize=None)(partial(_removed, parts))
     reduce = partial(_reduce, plant, parts, removed, late, rules)

@@ -88,8 +88,7 @@ def direct_synthesis(
     [3.393, 0.825, 3.777]
     """
     lambda_ = checks.positive_time("lambda_", lambda_)
-    if kind not in KINDS:
-        raise InvalidParameter(said("kind must be PI or PID, found {kind}", kind=str(kind)[:20]))
+    checks.one_of("kind", kind, KINDS)
     h0, h1, h2 = _coefficients(process, lambda_, inside)
     if kind == "PI":
         return ParallelPid(h1, h0, b=b)

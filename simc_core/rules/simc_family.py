@@ -1,11 +1,10 @@
 """SIMC and its two later forms, each with the one knob tau_c; simc.py and simc_variants.py have the equations."""
 
+from simc_core import checks
 from simc_core.controllers.forms import Controller
-from simc_core.errors import InvalidParameter
 from simc_core.plants.models import FirstOrderDelay, Model, SecondOrderDelay
 from simc_core.rules.simc import default_tau_c, simc, tau_c_multiples, tau_c_presets
 from simc_core.rules.simc_variants import improved_simc, isimc
-from simc_core.wording import said
 
 FAMILY = ("simc", "improved_simc", "isimc")
 ISIMC_TIGHT = 0.5  # tau_c/theta [GS18]
@@ -16,17 +15,13 @@ def settings_of(rule: str, model: Model, tau_c: float | None = None) -> Controll
 
     Raises InvalidParameter and OutOfDomain as the rules do.
     """
-    match rule:
+    match checks.one_of("rule", rule, FAMILY):
         case "simc":
             return simc(model, tau_c)
         case "improved_simc":
             return improved_simc(model, "PI", tau_c)
-        case "isimc":
-            return isimc(model, "PID", tau_c)
         case _:
-            raise InvalidParameter(
-                said("rule must be one of {family}, found {rule!r}", family=", ".join(FAMILY), rule=rule)
-            )
+            return isimc(model, "PID", tau_c)
 
 
 def usual_tau_c(rule: str, model: Model) -> float:

@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from simc_core import checks
 from simc_core.controllers.forms import Controller
-from simc_core.errors import InvalidParameter, SimcError
+from simc_core.errors import SimcError
 from simc_core.loops.loop import Loop
 from simc_core.metrics.performance import Performance, performance_many
 from simc_core.optimal.criterion import CRITERIA, J, References
@@ -104,14 +105,7 @@ def comparison(
     M = None if Ms is None else peak_bound("Ms", Ms)
     for key in keys:
         rule_of(key)
-    if criterion not in CRITERIA:
-        raise InvalidParameter(
-            said(
-                "criterion must be one of {criteria}, found {criterion!r}",
-                criteria=", ".join(CRITERIA),
-                criterion=criterion,
-            )
-        )
+    checks.one_of("criterion", criterion, CRITERIA)
     return _rows(_Judge(plant, M, FILTER * scale_of(plant) if tau_F is None else tau_F, criterion), kinds, keys)
 
 

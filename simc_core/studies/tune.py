@@ -63,9 +63,7 @@ def tune(
 
 def rule_of(key: str) -> Rule:
     """The rule of that name."""
-    if key not in RULES:
-        raise InvalidParameter(said("rule must be one of {rules}, found {key!r}", rules=", ".join(RULES), key=key))
-    return RULES[key]
+    return RULES[checks.one_of("rule", key, RULES)]
 
 
 def knob_of(rule: Rule, knobs: dict[str, float | None]) -> float | None:

@@ -146,7 +146,7 @@ def test_a_stable_cascade_round_an_unstable_inner_loop_is_flagged():
 def test_what_cannot_be_asked():
     with pytest.raises(InvalidParameter, match="only one of tau_c_inner and Ms_inner"):
         simc_cascade(*PAIRS[1], tau_c_inner=1.0, Ms_inner=2.0)
-    with pytest.raises(InvalidParameter, match="inner must be PI or PID, found PD"):
+    with pytest.raises(InvalidParameter, match="inner must be one of PI, PID, found 'PD'"):
         simc_cascade(*PAIRS[1], inner="PD")
     with pytest.raises(NotStable, match="unstable"):
         performance(CascadeLoop(*PAIRS[1], SeriesPid(5.0, 5.0), SeriesPid(1.5, 3.0)))

@@ -330,7 +330,7 @@ def test_a_derivative_time_next_to_off_is_rounded_to_what_is_nearer():
     [
         ({"RSET": 1}, "PB of .* must be given"),
         ({"PB": 50, "RSET": 1, "Ti": 3}, "has no field Ti; it has PB, RATE, RSET"),
-        ({"PB": 50, "RSET": 1, "structure": "PID-C"}, "structure must be one of PID-A; PID-B, found 'PID-C'"),
+        ({"PB": 50, "RSET": 1, "structure": "PID-C"}, "structure must be one of PID-A, PID-B, found 'PID-C'"),
         ({"PB": -50, "RSET": 1}, "PB .* from 0.1 to 1000 %, found -50"),
         ({"PB": 50, "RSET": 0}, "RSET .* found 0"),
     ],
@@ -364,10 +364,10 @@ def test_a_filter_ratio_that_is_too_small_is_refused_with_the_smallest():
 @pytest.mark.parametrize(
     ("given", "text"),
     [
-        ({"key": "abb_800xa"}, "key must be one of BOXES"),
+        ({"key": "abb_800xa"}, f"key must be one of {', '.join(BOXES)}, found 'abb_800xa'"),
         ({"key": "slc500", "pv_span": 0}, "pv_span must not be zero"),
         ({"key": "slc500", "out_span": -100}, "out_span must be > 0, found -100"),
-        ({"key": "slc500", "time_unit": "h"}, "time_unit must be s or min, found 'h'"),
+        ({"key": "slc500", "time_unit": "h"}, "time_unit must be one of s, min, found 'h'"),
     ],
 )
 def test_what_is_asked_of_no_box_is_refused(given, text):

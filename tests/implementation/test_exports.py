@@ -238,7 +238,7 @@ def test_the_header_tells_plant_design_peaks_period_unit_and_date(language):
         ({"u_min": math.nan}, "u_min must be finite"),
         ({"date": "*/ evil"}, "date may have letters"),
         ({"about": 'TIC-1"""'}, "about may have letters"),
-        ({"unit": "h"}, "unit must be s or min"),
+        ({"unit": "h"}, "unit must be one of s, min, found 'h'"),
         ({"controller": IController(0.3)}, "tracking_time or plant must be given for pure integral action"),
     ],
 )

@@ -202,7 +202,10 @@ def test_the_header_tells_the_worst_peak_and_the_filter():
             lambda: export_schedule(ScheduleTable(GainSchedule(*ROWS)), "python-control"),
             "language must be one of python, c, arduino, st",
         ),
-        (lambda: export_schedule(ScheduleTable(GainSchedule(*ROWS)), "c", unit="h"), "unit must be s or min"),
+        (
+            lambda: export_schedule(ScheduleTable(GainSchedule(*ROWS)), "c", unit="h"),
+            "unit must be one of s, min, found 'h'",
+        ),
         (lambda: ScheduleTable(GainSchedule(*ROWS), 0), "parts must be >= 1"),
         (
             lambda: ScheduleTable(GainSchedule((0, 1), (FirstOrderDelay(1, 1, 0), FirstOrderDelay(2, 1, 0)))),

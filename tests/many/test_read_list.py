@@ -70,7 +70,7 @@ def test_a_rows_own_unit_may_not_differ_from_the_heading():
     both = "tag,k,theta [min],tau1,time_unit\nA,1,2,8,min\nB,1,2,8,s\n"
     agreed, torn = tune_many(rows(both))
     assert not agreed.refusal
-    assert "time_unit must be s or min, found 's (heading: min)'" in torn.refusal
+    assert "time_unit must be one of s, min, found 's (heading: min)'" in torn.refusal
 
 
 def test_rows_have_their_number_in_the_file_and_empty_ones_are_left_out():

@@ -184,7 +184,7 @@ def test_an_Ms_asked_for_is_met():
         ({"k": 1, "theta": 1, "tau1": 8, "plant": "1/(s+1)"}, "both given"),
         ({"k": 1, "theta": 0, "tau1": 8}, "tau_c must be given"),
         ({"k": 1, "theta": 1, "tau1": -8}, "tau1 must be >= 0"),
-        ({"k": 1, "theta": 1, "tau1": 8, "kind": "PD"}, "kind must be PI or PID"),
+        ({"k": 1, "theta": 1, "tau1": 8, "kind": "PD"}, "kind must be one of PI, PID, found 'PD'"),
         ({"k": 1, "theta": 1, "tau1": 8, "tau_c": 1, "Ms": 1.5}, "leave one of them empty"),
         ({"plant": "x" * 3000}, "at most 2000 characters"),
         ({"k": "1,234", "theta": 1, "tau1": 8}, "two ways"),

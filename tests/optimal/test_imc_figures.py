@@ -104,7 +104,7 @@ def test_a_loop_whose_T_is_small_stands_any_error():
 def test_unstable_loops_and_other_kinds_are_refused():
     with pytest.raises(NotStable):
         delay_bound(imc_loop(0.1, "PI"))
-    with pytest.raises(InvalidParameter, match="kind must be PI or PID"):
+    with pytest.raises(InvalidParameter, match="kind must be one of PI, PID, found"):
         imc_point(1.0, "P")
     with pytest.raises(InvalidParameter, match="epsilon/theta"):
         imc_point(-1.0)

@@ -219,7 +219,7 @@ def test_a_bound_that_is_too_small_is_refused_with_the_smallest_that_is_not():
 @pytest.mark.parametrize(
     ("how", "words"),
     [
-        ({"kind": "PD"}, "kind must be PI or PID"),
+        ({"kind": "PD"}, "kind must be one of PI, PID, found 'PD'"),
         ({"criterion": "ISE"}, "criterion must be one of"),
         ({"Ms": 1.0}, "Ms must be > 1"),
         ({"kind": "PID", "criterion": "J", "tau_F": 0.0}, "tau_F must be > 0"),

@@ -297,7 +297,7 @@ def test_what_the_rule_does_not_cover(plant, words):
         ({"h": -1}, "h must be >= 0, found -1"),
         ({"h": math.nan}, "finite"),
         ({"tau_F": -1}, "tau_F must be >= 0, found -1"),
-        ({"rules": "2005"}, 'rules must be "2003" or "1998", found \'2005\''),
+        ({"rules": "2005"}, "rules must be one of 2003, 1998, found '2005'"),
     ],
 )
 def test_arguments_out_of_bounds(arguments, words):

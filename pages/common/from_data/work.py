@@ -6,7 +6,7 @@ from typing import Any
 
 from pages.common.from_data.examples import EXAMPLES, text_of
 from pages.common.session.record import Chosen
-from simc_core import Identified, SimcError, Trend, find_moves, identify_all
+from simc_core import Identified, SimcError, Trend, checks, find_moves, identify_all
 from simc_core.identification.moves import Move
 from simc_core.identification.reading.meaning import Reading, understand
 from simc_core.identification.reading.reader import load
@@ -187,10 +187,7 @@ def work_on(name: str, content: bytes | str, example: str = "") -> Work:
 
 def work_on_example(key: str) -> Work:
     """A record that the program makes. Raises SimcError."""
-    if key not in EXAMPLES:
-        raise SimcError(
-            said("example must be one of {examples}, found {found}", examples=", ".join(EXAMPLES), found=key[:20])
-        )
+    checks.one_of("example", key, EXAMPLES)
     return work_on(EXAMPLES[key].title, text_of(key), key)
 
 

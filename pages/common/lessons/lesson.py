@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from pages.common.parts.quantities import QUANTITIES
+from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.wording import said
 
@@ -56,10 +57,10 @@ class Move:
 
     def __post_init__(self) -> None:
         _text("text", self.text)
-        _one_of("shows", self.shows, SHOWS)
-        _one_of("view", self.view, VIEWS)
+        checks.one_of("shows", self.shows, SHOWS)
+        checks.one_of("view", self.view, VIEWS)
         for panel in self.panels:
-            _one_of("panels", panel, PANELS)
+            checks.one_of("panels", panel, PANELS)
         _few("behind", self.behind)
 
 
@@ -139,7 +140,7 @@ class Lesson:
         if not ID.fullmatch(self.id):
             raise InvalidParameter(said("id must be 1 to 12 letters and digits, found {found}", found=self.id[:20]))
         _text("title", self.title, "title")
-        _one_of("subject", self.subject, SUBJECTS)
+        checks.one_of("subject", self.subject, SUBJECTS)
         for name in ("question", "answer"):
             _text(name, getattr(self, name))
         if self.where:
@@ -181,10 +182,10 @@ class Lesson:
                 said("numbers must be at most {most}, found {found}", most=MOST_NUMBERS, found=len(self.numbers))
             )
         for name in self.numbers:
-            _one_of("numbers", name, QUANTITIES)
+            checks.one_of("numbers", name, QUANTITIES)
         for move in (self.play, *self.moves):
             for case in (move.case, *move.behind):
-                _one_of("case", case, (BASE, *self.cases))
+                checks.one_of("case", case, (BASE, *self.cases))
 
     def label(self, case: str) -> str:
         """Of a case in legends: its `name`, or what it is called in checks."""
@@ -229,17 +230,5 @@ def _few(name: str, items: tuple, least: int = 0) -> None:
                 least=least,
                 most=MOST[name],
                 found=len(items),
-            )
-        )
-
-
-def _one_of(name: str, value: str, allowed) -> None:
-    if value not in allowed:
-        raise InvalidParameter(
-            said(
-                "{name} must be one of {allowed}, found {found}",
-                name=name,
-                allowed=", ".join(allowed),
-                found=value[:20],
             )
         )

@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field
 
 from pages.common.session.facts import of_plant
-from pages.common.session.sheet import one_of
 from pages.common.session.tuning import KINDS
 from simc_core import Plant, checks
 from simc_core.cascade.design import HIGHEST_MS, LOWEST_MS
@@ -45,10 +44,10 @@ class Cascade:
         put = object.__setattr__
         for block in ("primary", "secondary"):
             put(self, f"{block}_facts", of_plant(getattr(self, f"{block}_facts"), getattr(self, block)))
-        one_of("filter_outer", self.filter_outer, FILTERS)
-        one_of("method", self.method, METHODS)
-        one_of("inner", self.inner, KINDS)
-        one_of("outer", self.outer, KINDS)
+        checks.one_of("filter_outer", self.filter_outer, FILTERS)
+        checks.one_of("method", self.method, METHODS)
+        checks.one_of("inner", self.inner, KINDS)
+        checks.one_of("outer", self.outer, KINDS)
         for name in ("tau_c_inner", "tau_c_outer"):
             if getattr(self, name) is not None:
                 put(self, name, checks.positive_time(name, getattr(self, name)))

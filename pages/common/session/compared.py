@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from pages.common.session.sheet import one_of
 from simc_core import RULES, IController, Plant, SeriesPid, checks
 from simc_core.controllers.forms import Controller
 from simc_core.optimal.criterion import CRITERIA
@@ -69,13 +68,13 @@ class Compared:
     def __post_init__(self):
         put = object.__setattr__
         if self.plant != PRESENT:
-            one_of("compared_plant", self.plant, USUAL)
-        one_of("compared_kind", self.kind, KINDS)
-        one_of("compared_criterion", self.criterion, CRITERIA)
+            checks.one_of("compared_plant", self.plant, USUAL)
+        checks.one_of("compared_kind", self.kind, KINDS)
+        checks.one_of("compared_criterion", self.criterion, CRITERIA)
         if self.rule:
             key, _, kind = self.rule.partition("-")
-            one_of("compared_rule", key, (OPTIMAL, *RULES))
-            one_of("the kind of compared_rule", kind, KINDS[:2])
+            checks.one_of("compared_rule", key, (OPTIMAL, *RULES))
+            checks.one_of("the kind of compared_rule", kind, KINDS[:2])
         if self.tau_F is not None:
             put(self, "tau_F", checks.positive_time("tau_F", self.tau_F))
         if self.Ms is not None:

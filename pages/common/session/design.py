@@ -13,7 +13,7 @@ from pages.common.session.excitation import Excitation
 from pages.common.session.facts import of_plant
 from pages.common.session.home import Home
 from pages.common.session.record import MOST_STRUCTURES, Chosen, Origin
-from pages.common.session.sheet import Sheet, one_of
+from pages.common.session.sheet import Sheet
 from pages.common.session.tuning import Tuning
 from simc_core import BOXES, Plant, Uncertainty, checks
 from simc_core.controllers.forms import FORMS, Controller
@@ -60,9 +60,9 @@ class Design:
     home: Home = field(default_factory=Home)
 
     def __post_init__(self):
-        one_of("form", self.form, FORMS)
-        one_of("source", self.source, SOURCES)
-        one_of("box", self.box, ("", *BOXES))
+        checks.one_of("form", self.form, FORMS)
+        checks.one_of("source", self.source, SOURCES)
+        checks.one_of("box", self.box, ("", *BOXES))
         if self.source == "own" and self.own is None:
             raise InvalidParameter(said("own must be given where the controller is my settings, found nothing"))
         object.__setattr__(self, "pins", checks.items("pins", self.pins, MOST_PINS))

@@ -3,7 +3,6 @@
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from pages.common.session.sheet import one_of
 from simc_core import FirstOrderDelay, GainSchedule, IntegratingDelay, SecondOrderDelay, checks
 from simc_core.errors import InvalidParameter
 from simc_core.implementation.exports.export import LANGUAGES
@@ -34,10 +33,10 @@ class Home:
     between: str = "model"
 
     def __post_init__(self):
-        one_of("rounding", self.rounding, ROUNDINGS)
-        one_of("language", self.language, LANGUAGES)
-        one_of("exported", self.exported, EXPORTED)
-        one_of("between", self.between, BETWEEN)
+        checks.one_of("rounding", self.rounding, ROUNDINGS)
+        checks.one_of("language", self.language, LANGUAGES)
+        checks.one_of("exported", self.exported, EXPORTED)
+        checks.one_of("between", self.between, BETWEEN)
         rows = checks.items("points", self.points, MOST_POINTS)
         object.__setattr__(self, "points", tuple(_point(i, row) for i, row in enumerate(rows, start=1)))
         if rows:

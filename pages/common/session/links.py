@@ -38,7 +38,7 @@ from pages.common.session.record import (
     uncertainty_text,
 )
 from pages.common.session.tuning import Tuning
-from simc_core import Plant, parse_plant
+from simc_core import Plant, checks, parse_plant
 from simc_core.controllers.forms import Controller, IController, IdealPid, ParallelPid, SeriesPid
 from simc_core.errors import SimcError
 from simc_core.notation import plain
@@ -222,15 +222,7 @@ def settings_text(controller: Controller | None) -> str:
 def settings_of(text: str) -> Controller:
     """The controller of a text. Raises SimcError."""
     form, *values = text.split("~")
-    if form not in FORM_NAMES:
-        raise SimcError(
-            said(
-                "settings begin with one of {form_names}, found {form}",
-                form_names=", ".join(FORM_NAMES),
-                form=form[:20],
-            )
-        )
-    kind = FORM_NAMES[form]
+    kind = FORM_NAMES[checks.one_of("form", form, FORM_NAMES)]
     wanted = len(kind.SETTINGS) + len(kind.OPTIONAL)
     if len(values) != wanted:
         raise SimcError(

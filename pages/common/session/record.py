@@ -56,14 +56,7 @@ class Chosen:
                     example=self.example[:30],
                 )
             )
-        if self.structure not in ("", *STRUCTURES):
-            raise InvalidParameter(
-                said(
-                    "structure must be one of {structures}, found {structure}",
-                    structures=", ".join(STRUCTURES),
-                    structure=self.structure[:30],
-                )
-            )
+        checks.one_of("structure", self.structure, ("", *STRUCTURES))
         for name in ("begin", "end"):
             if getattr(self, name) is not None:
                 number = checks.real(name, getattr(self, name), -LARGEST_INSTANT, LARGEST_INSTANT)
@@ -95,15 +88,7 @@ class Origin:
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        if self.structure not in PARAMETERS:
-            raise InvalidParameter(
-                said(
-                    "structure must be one of {parameters}, found {structure}",
-                    parameters=", ".join(PARAMETERS),
-                    structure=self.structure[:30],
-                )
-            )
-        wanted = len(PARAMETERS[self.structure])
+        wanted = len(PARAMETERS[checks.one_of("structure", self.structure, PARAMETERS)])
         if len(self.errors) != wanted:
             raise InvalidParameter(
                 said(
@@ -149,15 +134,7 @@ def origin_of(text: str, plant: Plant) -> Origin:
     """The origin of this plant. Raises SimcError."""
     first, *rest = text.split("~")
     structure, *own = first.split("!")
-    if structure not in PARAMETERS:
-        raise SimcError(
-            said(
-                "origin begins with one of {parameters}, found {structure}",
-                parameters=", ".join(PARAMETERS),
-                structure=structure[:20],
-            )
-        )
-    count = 2 + len(PARAMETERS[structure])
+    count = 2 + len(PARAMETERS[checks.one_of("structure", structure, PARAMETERS)])
     try:
         fit, samples, *errors = (float(each) for each in rest[:count])
         gains = tuple(float(each) for each in own)
@@ -199,14 +176,7 @@ def uncertainty_from(text: str) -> tuple[Uncertainty, ...]:
     found = []
     for part in text.split("!"):
         structure, *rest = part.split("~")
-        if structure not in STRUCTURES:
-            raise SimcError(
-                said(
-                    "uncertainty begins with one of {structures}, found {structure}",
-                    structures=", ".join(STRUCTURES),
-                    structure=structure[:20],
-                )
-            )
+        checks.one_of("structure", structure, STRUCTURES)
         try:
             freedom, *numbers = (float(each) for each in rest)
         except ValueError:

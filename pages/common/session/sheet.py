@@ -5,7 +5,6 @@ Numbers of a design are in these units, so changing the time unit of a sheet con
 """
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -44,15 +43,8 @@ class Sheet:
         put = object.__setattr__
         for name, longest in LONGEST.items():
             put(self, name, _text(name, getattr(self, name), longest))
-        if self.time_unit and self.time_unit not in TIME_UNITS:
-            units = ", ".join(TIME_UNITS)
-            raise InvalidParameter(
-                said(
-                    "time unit must be one of {units} or empty, found {time_unit}",
-                    units=units,
-                    time_unit=str(self.time_unit)[:20],
-                )
-            )
+        if self.time_unit:
+            checks.one_of("time_unit", self.time_unit, TIME_UNITS)
         for signal in ("PV", "OP"):
             for end in ("low", "high", "now"):
                 name = f"{signal}_{end}"
@@ -117,22 +109,4 @@ def ratio(old: str, new: str) -> Fraction:
 
 def _text(name: str, given, longest: int) -> str:
     text = "".join(c if c.isprintable() else " " for c in str(given)).strip()
-    if len(text) > longest:
-        raise InvalidParameter(
-            said("{name} may have at most {longest} characters, found {n}", name=name, longest=longest, n=len(text))
-        )
-    return text
-
-
-def one_of(name: str, value, choices: Iterable[str]) -> str:
-    """`value`, which must be one of `choices`. Raises InvalidParameter."""
-    if value not in choices:
-        raise InvalidParameter(
-            said(
-                "{name} must be one of {choices}, found {value}",
-                name=name,
-                choices=", ".join(choices),
-                value=str(value)[:40],
-            )
-        )
-    return value
+    return checks.text(name, text, longest)

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from pages.common.session.sheet import one_of
 from simc_core import checks
 from simc_core.errors import InvalidParameter
 from simc_core.rules.simc_family import FAMILY
@@ -53,8 +52,8 @@ class Tuning:
             put(self, "tau_c", checks.positive_time("tau_c", self.tau_c))
         put(self, "b", checks.real("b", self.b, 0.0, 2.0))
         put(self, "filter", checks.real("filter", self.filter, 0.0, 10.0))
-        one_of("rules", self.rules, RULES)
-        one_of("rule", self.rule, FAMILY)
+        checks.one_of("rules", self.rules, RULES)
+        checks.one_of("rule", self.rule, FAMILY)
 
     @property
     def kind(self) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from simc_core import checks
 from simc_core.errors import DataError
 from simc_core.identification.reading.columns import INSTANTS, NUMBERS, WORDS, Column
 from simc_core.identification.reading.instants import (
@@ -78,14 +79,8 @@ def time_axis(
 
     Raises DataError where no column is time and no period is told.
     """
-    if time_unit is not None and time_unit not in UNIT_SECONDS:
-        raise DataError(
-            said(
-                "time_unit must be one of {units}, found {found}",
-                units=", ".join(UNIT_SECONDS),
-                found=str(time_unit)[:20],
-            )
-        )
+    if time_unit is not None:
+        checks.one_of("time_unit", time_unit, UNIT_SECONDS, DataError)
     if period is not None:
         return _by_period(columns, period, time_unit or "s")
     dates = [i for i, column in enumerate(columns) if column.kind == INSTANTS]

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from types import ModuleType
 from typing import Any
 
+from simc_core import checks
 from simc_core.errors import DataError
 from simc_core.identification.reading.delimiter import MOST_COLUMNS, MOST_ROWS
 from simc_core.wording import counted, said
@@ -38,10 +39,8 @@ def rows_of_workbook(data: bytes, sheet: str | None = None) -> tuple[list[list[s
         raise DataError(
             said("the spreadsheet cannot be opened: {error}. Save it as CSV", error=str(error)[:80])
         ) from None
-    if sheet is not None and sheet not in sheets:
-        raise DataError(
-            said("sheet must be one of {sheets}, found {found}", sheets=", ".join(sheets), found=sheet[:40])
-        )
+    if sheet is not None:
+        checks.one_of("sheet", sheet, sheets, DataError)
     name = sheet if sheet is not None else max(sheets, key=lambda each: sheets[each].height * sheets[each].width)
     chosen = sheets[name]
     if chosen.total_height > MOST_ROWS or chosen.width > MOST_COLUMNS:

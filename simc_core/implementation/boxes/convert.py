@@ -4,16 +4,17 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 
 from simc_core import checks
 from simc_core.controllers.forms import Controller
-from simc_core.errors import BoxError, InvalidParameter
+from simc_core.errors import BoxError
 from simc_core.implementation.boxes.box import PV_FILTER, STRUCTURE, Box
 from simc_core.implementation.boxes.catalogue import BOXES
 from simc_core.implementation.boxes.fields import carries_gain, check, numbers, off_value, with_sign, with_structure
 from simc_core.implementation.boxes.laws import LAWS, Quantities
 from simc_core.implementation.boxes.units import Spans, law_quantity, read
-from simc_core.wording import Text, joined, said
+from simc_core.wording import Text, said
 
 SECONDS = {"s": 1, "min": 60}
 REQUIRED = ("gain", "PB", "Ti", "1/Ti", "Ki", "1/Ki")
@@ -167,8 +168,7 @@ def from_box(
     (2.0, 60.0)
     """
     box, spans, seconds = _box(key), _spans(pv_span, out_span), _seconds(time_unit)
-    if action not in ("reverse", "direct"):
-        raise InvalidParameter(said("action must be reverse or direct, found {action!r}", action=action))
+    checks.one_of("action", action, ("reverse", "direct"))
     names = {field.name for field in box.fields}
     unknown = [name for name in values if name not in names | {STRUCTURE, PV_FILTER}]
     if unknown:
@@ -214,16 +214,7 @@ def from_box(
         law[law_quantity(field)] = off_value(field) if number == field.off else read(field, number, spans)
     structure = values.get(STRUCTURE, next(iter(box.structures), None))
     if box.structures:
-        if not isinstance(structure, str) or structure not in box.structures:
-            raise BoxError(
-                said(
-                    "{field} must be one of {structures}, found {structure!r}",
-                    field=STRUCTURE,
-                    structures=joined(box.structures, "; "),
-                    structure=structure,
-                ),
-                STRUCTURE,
-            )
+        structure = checks.one_of(STRUCTURE, structure, box.structures, partial(BoxError, field=STRUCTURE))
         law["b"], law["c"] = box.structures[structure]
     pv_filter = checks.optional_time(PV_FILTER, values.get(PV_FILTER, 0.0))
     found = LAWS[box.form].back(law, box)
@@ -259,19 +250,12 @@ def _of_the_box(box: Box) -> list[Text]:
 
 
 def _box(key: str) -> Box:
-    if key not in BOXES:
-        raise InvalidParameter(said("key must be one of BOXES ({keys}), found {key!r}", keys=", ".join(BOXES), key=key))
-    return BOXES[key]
+    return BOXES[checks.one_of("key", key, BOXES)]
 
 
 def _spans(pv_span: float, out_span: float) -> Spans:
-    for name, span in (("pv_span", pv_span), ("out_span", out_span)):
-        if checks.gain(name, span) < 0:
-            raise InvalidParameter(said("{name} must be > 0, found {span:g}", name=name, span=span))
-    return Spans(float(pv_span), float(out_span))
+    return Spans(checks.positive("pv_span", pv_span), checks.positive("out_span", out_span))
 
 
 def _seconds(time_unit: str) -> int:
-    if time_unit not in SECONDS:
-        raise InvalidParameter(said("time_unit must be s or min, found {time_unit!r}", time_unit=time_unit))
-    return SECONDS[time_unit]
+    return SECONDS[checks.one_of("time_unit", time_unit, SECONDS)]

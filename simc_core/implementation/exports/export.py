@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
+from simc_core import checks
 from simc_core.controllers.forms import Controller
-from simc_core.errors import InvalidParameter
 from simc_core.implementation.exports.c import arduino, c
 from simc_core.implementation.exports.matlab import matlab
 from simc_core.implementation.exports.modelica import modelica
@@ -14,7 +14,6 @@ from simc_core.implementation.exports.python import python
 from simc_core.implementation.exports.python_control import python_control
 from simc_core.implementation.exports.structured_text import logix, scl, structured_text
 from simc_core.plants.plant import Plant
-from simc_core.wording import said
 
 LANGUAGES: Mapping[str, Callable[[Program], str]] = MappingProxyType(
     {
@@ -98,14 +97,6 @@ def export(
     >>> round(pid.step(r=1.0, y=0.0), 6)  # Kc (1 + h/tau_I)
     4.05
     """
-    if language not in LANGUAGES:
-        raise InvalidParameter(
-            said(
-                "language must be one of {languages}, found {language!r}",
-                languages=", ".join(LANGUAGES),
-                language=language,
-            )
-        )
-    return LANGUAGES[language](
+    return LANGUAGES[checks.one_of("language", language, LANGUAGES)](
         program(controller, h, law, u_min, u_max, tracking_time, plant, unit, date, single, design, about, delay_scans)
     )

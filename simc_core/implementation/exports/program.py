@@ -25,6 +25,7 @@ from simc_core.plants.plant import Plant
 from simc_core.sensitivity.margins import margins
 from simc_core.wording import said
 
+UNITS = ("s", "min")
 NO_LIMIT = 1e38  # what stands for an infinite limit: within the range of single precision
 INPUTS = ("r", "y", "u_manual", "u_ff")
 SETTINGS = ("Kp", "Ki", "Kd", "b", "c", "h", "a", "g", "pull", "u_min", "u_max")
@@ -142,8 +143,7 @@ def program(
     u_min, u_max = _limits(u_min, u_max)
     if tracking_time is not None and tracking_time != math.inf:
         tracking_time = checks.positive_time("tracking_time", tracking_time)
-    if unit not in ("s", "min"):
-        raise InvalidParameter(said("unit must be s or min, found {unit!r}", unit=unit))
+    checks.one_of("unit", unit, UNITS)
     for name, text in (("date", date), ("about", about)):
         if not REMARK.fullmatch(text):
             raise InvalidParameter(

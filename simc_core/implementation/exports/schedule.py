@@ -3,12 +3,11 @@
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-from simc_core.errors import InvalidParameter
-from simc_core.implementation.exports.program import Statement, written
+from simc_core import checks
+from simc_core.implementation.exports.program import UNITS, Statement, written
 from simc_core.implementation.exports.structured_text import NOT_COMPILED, comment, literal
 from simc_core.implementation.schedule_table import ScheduleTable
 from simc_core.notation import number
-from simc_core.wording import said
 
 COLUMNS = ("x_at", "band_at", "tau_I_at", "tau_D_at")
 LOCAL = ("part", "band", "tau_I", "tau_D")
@@ -45,16 +44,8 @@ def export_schedule(table: ScheduleTable, language: str, unit: str = "s", single
     >>> round(pid.Kp, 6)
     0.689655
     """
-    if language not in WRITERS:
-        raise InvalidParameter(
-            said(
-                "language must be one of {languages} for a schedule, found {language!r}",
-                languages=", ".join(WRITERS),
-                language=language,
-            )
-        )
-    if unit not in ("s", "min"):
-        raise InvalidParameter(said("unit must be s or min, found {unit!r}", unit=unit))
+    checks.one_of("language", language, WRITERS)
+    checks.one_of("unit", unit, UNITS)
     return WRITERS[language](table, _header(table, unit), single)
 
 
