@@ -14,6 +14,7 @@ the linear part exact for signals that run linearly over a step, e by predictor 
 
 import numpy as np
 
+from simc_core import checks
 from simc_core.controllers.tracking import tracking_time
 from simc_core.errors import InvalidParameter
 from simc_core.loops.nested import CascadeLoop, NestedLoops
@@ -44,14 +45,7 @@ def limited(
     innermost block without dead time that starts with a jump.
     """
     rest_within(u_min, u_max)
-    if protection not in PROTECTIONS:
-        raise InvalidParameter(
-            said(
-                "protection must be one of {protections}, found {protection}",
-                protections=", ".join(PROTECTIONS),
-                protection=protection[:20],
-            )
-        )
+    checks.one_of("protection", protection, PROTECTIONS)
     loops = loop.nested if isinstance(loop, CascadeLoop) else loop
     t_end = horizon(loops) if t_end is None else t_end
     system = network(loops)

@@ -24,8 +24,13 @@ def said_of_gains(verdicts) -> list[str]:
 @pytest.mark.parametrize("gains", [(2.0, 1.0), (1.0, 1.3), (1.0, 1.0, 4.0)])
 def test_gains_that_differ_are_told_first_of_every_structure(gains, seed):
     trends = [step(20.0 + 15 * i, k, 10 * seed + i) for i, k in enumerate(gains)]
-    found = identify_all(trends, ("FOPDT", "SOPDT", "inverse"))
-    assert len(found) == 3
+    structures = ("FOPDT", "SOPDT", "inverse")
+    found = identify_all(trends, structures)
+    # rounding may decide whether a structure that is right for no record is fitted at all: then its refusal tells it
+    for structure in {*structures} - {each.structure for each in found}:
+        with pytest.raises(NotIdentifiable, match=r"^The gain differs from record to record"):
+            identify(trends, structure)
+    assert {"FOPDT", "SOPDT"} <= {each.structure for each in found}
     for one in found:
         first = one.verdicts[0]
         assert "gain differs from record to record" in first
