@@ -19,7 +19,8 @@ from simc_core.simulation.collocation.pieces import chebyshev_basis
 
 INTERVALS = 64
 SAMPLES = np.cos(np.pi * np.arange(INTERVALS, -1, -1) / INTERVALS)
-MOST_STEPS = 8
+MOST_STEPS = 30  # two are usual
+OUTSIDE = 1e-13  # of [-1, 1]: rounding of a zero at the end of its bracket
 SHORT, BENT = 0.1, 0.1  # of the bracket, and of N f''/(2 f'), the error of Newton's step in units of it
 AT_LEVEL = 1e-11  # of the size of a series: so near a level it begins on it, often with several derivatives
 SERIES_ROUNDING = 1e-15  # of its size
@@ -127,20 +128,24 @@ def _polished(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Zeros of columns (P, k) between low and high, where they are first and last: x, and the basis next to it."""
     parts, width, below = (TAYLOR @ own).reshape(3, P, -1), high - low, first < 0
-    short = SHORT * width
+    low, high, going = low.copy(), high.copy(), np.arange(low.size)
     with np.errstate(divide="ignore", invalid="ignore"):
         # values of one sign, which rounding leaves where a series just touches a level, have no secant inside
         x = np.fmin(np.fmax(low - first * width / (last - first), low), high)
         for _ in range(MOST_STEPS):
-            f, following, bent = _step(x, parts, chebyshev_basis(x))
-            near = ((np.abs(following - x) <= short) & (np.abs(bent) <= BENT)) | (np.abs(f) <= rounding)
-            if near.all():
+            some = going if going.size < x.size else slice(None)
+            at = x[some]
+            f, following, bent = _step(at, parts[:, :, some], chebyshev_basis(at))
+            same = (f < 0) == below[some]
+            low[some] = begin = np.where(same, at, low[some])
+            high[some] = end = np.where(same, high[some], at)
+            inside = (following >= begin - OUTSIDE) & (following <= end + OUTSIDE)  # else it is another zero
+            near = inside & (np.abs(following - at) <= SHORT * width[some]) & (np.abs(bent) <= BENT)
+            near |= np.abs(f) <= rounding[some]
+            x[some] = np.fmin(np.fmax(np.where(near | inside, following, (begin + end) / 2), begin), end)
+            going = going[~near]
+            if not going.size:
                 break
-            same = (f < 0) == below
-            low, high = np.where(same, x, low), np.where(same, high, x)
-            inside = near | ((following >= low) & (following <= high))
-            x = np.fmin(np.fmax(np.where(inside, following, (low + high) / 2), low), high)
-        x = np.fmin(np.fmax(following, low), high)
         basis = chebyshev_basis(x, P + 2)
         return np.fmin(np.fmax(_step(x, parts, basis[:P])[1], low), high), basis
 

@@ -67,7 +67,7 @@ def delay_of(parts: Dynamics, lags: Iterable[Lag], shape: Shape, late: float) ->
 
 def resolved(trial: TrialReduction, theta: float) -> TrialReduction:
     """The trial with its lines replaced by their values at theta."""
-    lags = tuple(replace(lag, tau=LineInTheta(lag.tau(theta))) for lag in trial.removal.lags)
+    lags = tuple([Lag(lag.index, LineInTheta(lag.tau(theta))) for lag in trial.removal.lags])
     return TrialReduction(replace(trial.removal, lags=lags), trial.shape, LineInTheta(trial.theta(theta)), ())
 
 

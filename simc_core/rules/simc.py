@@ -136,7 +136,7 @@ def tau_c_presets(model: Model) -> dict[str, float]:
 
 def default_tau_c(model: Model) -> float:
     """tau_c where none is given: tight; for a model without dead time the first choice there is, else 1."""
-    return next(iter(tau_c_presets(model).values()), 1.0)
+    return model.theta or next(iter(tau_c_presets(model).values()), 1.0)
 
 
 def tau_c_multiples(model: Model) -> dict[float, float]:

@@ -138,5 +138,6 @@ def _fed_back(gains: np.ndarray, elements: Elements) -> np.ndarray:
     n, measured = len(gains), elements.signals[1:]
     if measured.shape[1] == 1:
         return (gains @ measured.reshape(SIGNALS - 1, -1)).reshape(n, *measured.shape[2:])
-    weights = gains.T[:, :, None, None, None]
-    return weights[0] * measured[0] + weights[1] * measured[1] + weights[2] * measured[2]
+    Kp, Kd, Ki = gains.T[:, :, None, None, None]
+    found = Kp * measured[0] + Ki * measured[2]
+    return found + Kd * measured[1] if Kd.any() else found

@@ -13,7 +13,7 @@ from simc_core.loops.loop import Loop
 from simc_core.wording import said
 
 MOST_HELD = 12_000  # elements of all tunings of one march: 110 MB
-MOST_TOGETHER = 60  # tunings of one march; more do not make it faster
+MOST_TOGETHER = 120  # tunings, or loops of a list, in one march; more do not make it faster
 MOST_TO_END, MOST_TO_REST = 12_000, 6_000  # elements of one tuning
 MOST_OF_ALL = 100_000  # elements of all tunings of one call: 2 s
 LEAST_SHARE = 300  # elements of one tuning on its way to rest, however many there are

@@ -11,7 +11,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from simc_core.algebra.state_space import sections
 from simc_core.controllers.forms import ParallelPid
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import factored_plant
@@ -19,7 +18,7 @@ from simc_core.plants.plant import Plant
 from simc_core.simulation.one_delay.element_sizes import ElementSizes, shape
 from simc_core.simulation.one_delay.limits import MOST_TO_REST, together
 from simc_core.simulation.one_delay.march import MOST_INTERVALS, March, check, march
-from simc_core.simulation.one_delay.process_maps import ProcessMaps, modes
+from simc_core.simulation.one_delay.process_maps import ProcessMaps, chain_of, modes
 from simc_core.simulation.one_delay.unit_responses import UnitResponses, course
 
 Key = tuple[object, ...]
@@ -64,7 +63,7 @@ def _structure(plant: Plant, form: ParallelPid) -> tuple[float, Key]:
         parts: tuple[float, ...] | None = shape(poles, plant.theta)
     except InvalidParameter:  # which a march of its own will tell
         parts = None
-    chain = tuple(tuple(map(bool, row)) for section in sections(factored) for row in section)
+    chain = tuple([tuple(map(bool, row)) for section in chain_of(plant, unit) for row in section])
     return unit, (parts, chain, plant.theta > 0, form.tau_F > 0, form.Kd != 0, form.Kp != 0)
 
 

@@ -20,6 +20,7 @@ of its own: then all of them have the same elements.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -61,8 +62,7 @@ class ProcessMaps:
     """
 
     def __init__(self, plants: Sequence[Plant], tau_F: Sequence[float], derivative: bool, units: Sequence[float]):
-        factored = [factored_plant(plant) for plant in plants]
-        chains = [sections(each, unit) for each, unit in zip(factored, units, strict=True)]
+        chains = [chain_of(plant, unit) for plant, unit in zip(plants, units, strict=True)]
         self.gain = np.array([plant.k for plant in plants])[:, None, None, None]
         self.theta = plants[0].theta / units[0]
         self.filtered = tau_F[0] > 0
@@ -77,8 +77,8 @@ class ProcessMaps:
             raise InvalidParameter(
                 said("tau_F must be > 0 for derivative action on a plant whose response starts with a jump, found 0")
             )
-        self.modes = modes(factored[0], tau_F[0]) * units[0]
-        self.relative_degree = factored[0].relative_degree
+        self.modes = modes(factored_plant(plants[0]), tau_F[0]) * units[0]
+        self.relative_degree = factored_plant(plants[0]).relative_degree
 
     def elements(self, lengths: np.ndarray, which: Chosen = EVERY) -> tuple[np.ndarray, np.ndarray]:
         """Of single elements: signals (4, m, lengths, P, P + n) and states at the end (m, lengths, n, P + n).
@@ -157,6 +157,12 @@ def _to_nodes(matrix: np.ndarray, of: np.ndarray, section: _Section | None, free
     np.matmul(matrix, of, out=out)
     if section:
         section.add_free(out, free)
+
+
+@lru_cache(maxsize=1024)  # for many plants it is asked twice: which are alike, and what they do
+def chain_of(plant: Plant, unit: float) -> list[tuple[Row, Row]]:
+    """Sections of a plant, time in `unit`."""
+    return sections(factored_plant(plant), unit)
 
 
 def modes(factored: Factored, tau_F: float) -> np.ndarray:
