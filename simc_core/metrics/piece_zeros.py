@@ -21,7 +21,7 @@ INTERVALS = 64
 SAMPLES = np.cos(np.pi * np.arange(INTERVALS, -1, -1) / INTERVALS)
 MOST_STEPS = 30  # two are usual
 OUTSIDE = 1e-13  # of [-1, 1]: rounding of a zero at the end of its bracket
-SHORT, BENT = 0.1, 0.1  # of the bracket, and of N f''/(2 f'), the error of Newton's step in units of it
+SHORT, BENT = 0.03, 0.02  # of the bracket, and of N f''/(2 f'), the error of Newton's step in units of it
 AT_LEVEL = 1e-11  # of the size of a series: so near a level it begins on it, often with several derivatives
 SERIES_ROUNDING = 1e-15  # of its size
 

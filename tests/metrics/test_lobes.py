@@ -26,7 +26,7 @@ def test_both_zeros_of_a_lobe_beside_a_sample(mirrored, beside, wide):
         series, level = np.pad(f, (0, P - len(f)))[None], np.zeros((1, 1))
         turns = crossings(series @ SLOPE, level)
         found = crossings(series, level, Turns(turns.row, turns.interval, turns.x, turns.of(series)))
-        rounding = 3e-14 / (b - a)  # of f, over its slope
+        rounding = 1e-14 / (b - a)  # of f, over its slope
         assert sorted(found.x) == pytest.approx([a, b], rel=0, abs=rounding)
 
 
