@@ -12,15 +12,16 @@ import numpy as np
 from simc_core import Loop
 from simc_core.certificate.verdict import remembered, remembered_nested
 from simc_core.interop import closed_loop, to_tf
-from simc_core.loops.loop import factored_plant
+from simc_core.loops.loop import factored_plant, transfer_function
 from simc_core.sensitivity.nested_response import closed
 from simc_core.simulation.one_delay.element_sizes import levels
+from simc_core.simulation.one_delay.process_maps import chain_of
 from simc_core.simulation.several_delays.stepper import steps_of
 from simc_core.simulation.simulate import settled
 
 ROUNDS = 9
-OF_LOOPS = (settled, remembered, steps_of, remembered_nested, closed)
-OF_PLANTS = (factored_plant, levels)
+OF_LOOPS = (settled, transfer_function, remembered, steps_of, remembered_nested, closed)
+OF_PLANTS = (factored_plant, chain_of, levels)
 POINTS, FREQUENCIES = 600, 400
 
 

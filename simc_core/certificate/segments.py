@@ -31,6 +31,16 @@ def geometric(first: float, last: float, per_decade: float) -> np.ndarray:
     return omega
 
 
+def geometric_rows(first: np.ndarray, last: np.ndarray, per_decade: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """0 and `geometric` of each loop, as of `side_by_side`."""
+    span = np.log(last) - np.log(first)
+    intervals = (per_decade / math.log(10.0) * span).astype(int) + 1
+    owner, place = ragged(intervals + 2)
+    omega, ends = first[owner] * np.exp((place - 1) * (span / intervals)[owner]), (intervals + 2).cumsum() - 1
+    omega[place == 0], omega[ends] = 0.0, last
+    return omega, owner, ends
+
+
 def side_by_side(grids: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Frequencies of all loops in one row, the number of the loop beside each, and the index at which each ends."""
     if len(grids) == 1:

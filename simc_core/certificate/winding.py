@@ -19,7 +19,7 @@ import numpy as np
 from simc_core.algebra.factors import roots_of
 from simc_core.certificate.argument_bounds import BatchedSum
 from simc_core.certificate.characteristic import Characteristic
-from simc_core.certificate.segments import Nodes, geometric, side_by_side, split
+from simc_core.certificate.segments import Nodes, geometric_rows, split
 from simc_core.errors import InvalidParameter
 from simc_core.wording import said
 
@@ -119,7 +119,8 @@ def _note(nodes: Nodes, zeros: np.ndarray, touches: np.ndarray) -> None:
 
 def _first_grid(ranges: Sequence[tuple[float, float]]) -> tuple[Nodes, np.ndarray]:
     """0 and a geometric grid for every loop; and the index of its last frequency."""
-    omega, owner, ends = side_by_side([np.append(0.0, geometric(*each, GRID_PER_DECADE)) for each in ranges])
+    first, last = np.array(ranges).T
+    omega, owner, ends = geometric_rows(first, last, GRID_PER_DECADE)
     return Nodes(omega, owner, omega[1:] > 0), ends
 
 

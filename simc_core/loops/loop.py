@@ -47,10 +47,18 @@ class Loop:
     @property
     def L(self) -> Factored:
         """Loop transfer function G C, exact dead time."""
-        return factored_plant(self.plant) * self.controller.factored
+        return transfer_function(self)
 
 
-@lru_cache(maxsize=1024)  # of a list of loops as many are worked on together
+TOGETHER = 1024  # of a list of loops as many are worked on together
+
+
+@lru_cache(maxsize=TOGETHER)  # the certificate and the margins ask for it
+def transfer_function(loop: Loop) -> Factored:
+    return factored_plant(loop.plant) * loop.controller.factored
+
+
+@lru_cache(maxsize=TOGETHER)
 def factored_plant(plant: Plant) -> Factored:
     """One plant meets many controllers."""
     return plant.factored
