@@ -179,8 +179,8 @@ def _measured(loops: Sequence[Loop], course: UnitResponses, decays: Sequence[flo
     tails = _tails(pairs, course)
     rates = [max(one.negligible_rate(), other.negligible_rate()) for one, other in tails]
     open_ = [i for i in range(n) if refusals[i] is None and decays[i] < rates[i]]
-    slower = zip(open_, _no_mode_is_slower([loops[i] for i in open_], [rates[i] for i in open_]), strict=True)
-    to_add = {i for i, none_is in slower if not none_is}
+    none_is_slower = _no_mode_is_slower([loops[i] for i in open_], [rates[i] for i in open_]) if open_ else []
+    to_add = {i for i, none_is in zip(open_, none_is_slower, strict=True) if not none_is}
     result: list[Performance | SimcError] = []
     for i, refusal in enumerate(refusals):
         if refusal is not None:

@@ -5,7 +5,8 @@ between two samples is lost. From the secant of its bracket x goes by Halley's s
 
     x - N/(1 - N f''/(2 f')),   N = f/f'
 
-or halves the bracket, until a step is short and nearly Newton's, N; the next one then leaves rounding.
+or halves the bracket where that leads out of it. What a step leaves of its length is about (N f''/(2 f'))^2 and the
+square of its share of the bracket; where that is next to nothing the zero is known. Two steps are usual.
 """
 
 from collections.abc import Sequence
@@ -19,9 +20,9 @@ from simc_core.simulation.collocation.pieces import chebyshev_basis
 
 INTERVALS = 64
 SAMPLES = np.cos(np.pi * np.arange(INTERVALS, -1, -1) / INTERVALS)
-MOST_STEPS = 30  # two are usual
+MOST_STEPS = 30
 OUTSIDE = 1e-13  # of [-1, 1]: rounding of a zero at the end of its bracket
-SHORT, BENT = 0.03, 0.02  # of the bracket, and of N f''/(2 f'), the error of Newton's step in units of it
+KNOWN = 1e-13  # of [-1, 1]: what the error of the last step may be
 AT_LEVEL = 1e-11  # of the size of a series: so near a level it begins on it, often with several derivatives
 SERIES_ROUNDING = 1e-15  # of its size
 
@@ -128,26 +129,26 @@ def _polished(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Zeros of columns (P, k) between low and high, where they are first and last: x, and the basis next to it."""
     parts, width, below = (TAYLOR @ own).reshape(3, P, -1), high - low, first < 0
-    low, high, going = low.copy(), high.copy(), np.arange(low.size)
+    low, high, basis, going = low.copy(), high.copy(), np.empty((P + 2, low.size)), np.arange(low.size)
     with np.errstate(divide="ignore", invalid="ignore"):
         # values of one sign, which rounding leaves where a series just touches a level, have no secant inside
         x = np.fmin(np.fmax(low - first * width / (last - first), low), high)
         for _ in range(MOST_STEPS):
             some = going if going.size < x.size else slice(None)
             at = x[some]
-            f, following, bent = _step(at, parts[:, :, some], chebyshev_basis(at))
+            basis[:, some] = near_it = chebyshev_basis(at, P + 2)
+            f, following, bent = _step(at, parts[:, :, some], near_it[:P])
             same = (f < 0) == below[some]
             low[some] = begin = np.where(same, at, low[some])
             high[some] = end = np.where(same, high[some], at)
             inside = (following >= begin - OUTSIDE) & (following <= end + OUTSIDE)  # else it is another zero
-            near = inside & (np.abs(following - at) <= SHORT * width[some]) & (np.abs(bent) <= BENT)
-            near |= np.abs(f) <= rounding[some]
-            x[some] = np.fmin(np.fmax(np.where(near | inside, following, (begin + end) / 2), begin), end)
-            going = going[~near]
+            step = np.abs(following - at)
+            known = (inside & (step * (bent**2 + (step / width[some]) ** 2) <= KNOWN)) | (np.abs(f) <= rounding[some])
+            x[some] = np.fmin(np.fmax(np.where(known | inside, following, (begin + end) / 2), begin), end)
+            going = going[~known]
             if not going.size:
                 break
-        basis = chebyshev_basis(x, P + 2)
-        return np.fmin(np.fmax(_step(x, parts, basis[:P])[1], low), high), basis
+    return x, basis
 
 
 def _step(x: np.ndarray, parts: np.ndarray, basis: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

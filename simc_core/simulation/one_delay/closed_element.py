@@ -82,24 +82,29 @@ class ClosedElements:
         """
         if self.levels.alone or (level in self._made and level not in self._known):
             return self[level]
-        if level not in self._made:
-            n = len(self.gains)
+        n, known = len(self.gains), self._known.get(level)
+        if known is not None and known[which].all():
+            return self._made[level]
+        wanted = [i for i in sorted({*which, *likely()}) if known is None or not known[i]]
+        if len(wanted) == n:
+            self._made[level] = self._alone(level, EVERY)
+            return self._made[level]
+        if known is None:
             G = np.empty((n, END + self.size, P + self.size))
             self._made[level] = OnLevel(G, np.empty((n, P, P)), np.empty((n, P, self.size)))
-            self._known[level] = np.zeros(n, dtype=bool)
-        known, found = self._known[level], self._made[level]
-        if not known[which].all():
-            wanted = np.array([i for i in {*which, *likely()} if not known[i]])
-            elements = self.levels.of([level], wanted)
-            G = self._on(elements, wanted)
-            back = elements.B[:, None] @ G[:, :, Z]
-            found.G[wanted], found.one_less[wanted], found.begun[wanted] = (
-                G[0],
-                EYE - back[0, ..., :P],
-                back[0, ..., P:],
-            )
-            known[wanted] = True
-        return found
+            known = self._known[level] = np.zeros(n, dtype=bool)
+        some = np.array(wanted)
+        for own, made in zip(self._made[level], self._alone(level, some), strict=True):
+            own[some] = made
+        known[some] = True
+        return self._made[level]
+
+    def _alone(self, level: int, which: Chosen) -> OnLevel:
+        """One level, made anew for some of the tunings."""
+        elements = self.levels.of([level], which)
+        G = self._on(elements, which)[0]
+        back = elements.B[0] @ G[:, Z]
+        return OnLevel(G, EYE - back[..., :P], back[..., P:])
 
     def _on(self, elements: Elements, which: Chosen = EVERY) -> np.ndarray:
         """G on each of the levels, (L, n, END + size, P + size), of the tunings `which`."""
@@ -139,5 +144,8 @@ def _fed_back(gains: np.ndarray, elements: Elements) -> np.ndarray:
     if measured.shape[1] == 1:
         return (gains @ measured.reshape(SIGNALS - 1, -1)).reshape(n, *measured.shape[2:])
     Kp, Kd, Ki = gains.T[:, :, None, None, None]
-    found = Kp * measured[0] + Ki * measured[2]
-    return found + Kd * measured[1] if Kd.any() else found
+    found = Kp * measured[0]
+    if Kd.any():
+        found += Kd * measured[1]
+    found += Ki * measured[2]
+    return found

@@ -4,16 +4,12 @@
 
 The controller sees p (y itself for tau_F = 0), its slope p' if it has derivative action, and its integral. On an
 element of length h all signals are polynomials given at the P Radau nodes (elements.py), and integration from the
-start of the element is the matrix K = h a. Each section (b2 s^2 + b1 s + b0)/(a s^2 + b s + c) of the chain
-(state_space.py) turns v into x and its output, b0 x + b1 x' + b2 x'', by
+start of the element is the matrix K = h a. Each section of the chain (realisation.py) turns v into x by
 
     a x'' + b x' + c x = v     with W = x'':   (a + b K + c K^2) W = v - b x'_0 - c (x_0 + K x'_0)
            b x' + c x = v      with W = x':    (b + c K) W = v - c x_0
 
-which is the collocation method of the whole chain. Columns of every map: (w at the nodes, x_0). On the way through the
-chain rows are kept in coordinates in which all functions of K are triangular but for blocks (schur_form.py). What the
-states at the start do of themselves, x_0 + x'_0 t, is added last, to values at the nodes: there it is exact, so that
-a loop at rest stays there.
+which is the collocation method of the whole chain. Columns of every map: (w at the nodes, x_0).
 
 Plants of one structure, whose sections have the same coefficients other than 0, are done together, each in a time unit
 of its own: then all of them have the same elements.
@@ -21,7 +17,6 @@ of its own: then all of them have the same elements.
 
 from collections.abc import Sequence
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -30,28 +25,16 @@ from simc_core.algebra.state_space import Row, sections
 from simc_core.errors import InvalidParameter
 from simc_core.loops.loop import factored_plant
 from simc_core.plants.plant import Plant
-from simc_core.simulation.collocation.elements import NODES
+from simc_core.simulation.collocation.elements import COLLOCATION
 from simc_core.simulation.collocation.elements import NODES_PER_ELEMENT as P
-from simc_core.simulation.collocation.schur_form import BACK, Q, T, inverse, polynomial
+from simc_core.simulation.collocation.shifted import solved
 from simc_core.wording import said
 
 SIGNALS = 4  # y, p, p', integral of p
 Rows = tuple[np.ndarray, np.ndarray, np.ndarray]
 Chosen = slice | np.ndarray  # some of the plants, or all of them, along the first axis of an array
 EVERY = slice(None)
-INTEGRAL = Q @ T  # from the coordinates of schur_form.py to the integral at the nodes, over h
-AT_END = Q[-1], INTEGRAL[-1], INTEGRAL[-1] @ T  # to the value at the end, to its integral, over h, and to that of it
-
-
-class Ramps(NamedTuple):
-    """The signals 1 and t/h, or their integrals over h, at the nodes or in the coordinates of schur_form.py."""
-
-    constant: np.ndarray
-    ramp: np.ndarray
-
-
-AT_NODES, INTEGRATED = Ramps(np.ones(P), NODES), Ramps(NODES, NODES**2 / 2)
-IN_SCHUR_FORM = Ramps(BACK @ np.ones(P), BACK @ NODES)
+EYE = np.eye(P)
 
 
 class ProcessMaps:
@@ -83,80 +66,23 @@ class ProcessMaps:
     def elements(self, lengths: np.ndarray, which: Chosen = EVERY) -> tuple[np.ndarray, np.ndarray]:
         """Of single elements: signals (4, m, lengths, P, P + n) and states at the end (m, lengths, n, P + n).
 
-        which: of the plants, m of them. Without derivative action p' is left at 0.
+        which: of the plants, m of them.
         """
-        gain, tau_F, length = self.gain[which], self.tau_F[which, None, None, None], lengths[:, None, None]
-        shape = len(gain), len(lengths)
-        signals, ends = np.zeros((SIGNALS, *shape, P, P + self.n)), np.zeros((*shape, self.n, P + self.n))
-        v = np.zeros((*shape, P, P + self.n))
-        v[..., :P] = gain * BACK
-        last, W, y = None, v, v
+        gain, tau_F = self.gain[which], self.tau_F[which, None, None, None]
+        n, m, count, length = self.n, len(gain), len(lengths), lengths[:, None, None]
+        v, ends = np.zeros((m, count, P, P + n)), np.zeros((m, count, n, P + n))
+        v[:, :, :, :P] = gain * EYE
+        slope, used = np.zeros_like(v), 0
         for num, den in self.sections:
-            last = _Section(_of(num, which), _of(den, which), length, last)
-            W, y = last.through(y, ends)
-        _to_nodes(Q, y, last, AT_NODES, signals[0])
-        p = y
+            v, slope, used = _section(_of(num, which), _of(den, which), length, v, ends, used)
+        outputs = np.empty((SIGNALS, m, count, P, P + n))
+        outputs[0] = v
         if self.filtered:
-            one = np.ones_like(tau_F)
-            last = _Section((0 * one, 0 * one, one), (0 * one, tau_F, one), length, last)
-            W, p = last.through(y, ends)
-            _to_nodes(Q, p, last, AT_NODES, signals[1])
-        else:
-            signals[1] = signals[0]
-        if self.derivative and last:
-            last.slope(W, signals[2])
-        _to_nodes(length * INTEGRAL, p, last, Ramps(*(length[..., 0] * each for each in INTEGRATED)), signals[3])
-        return signals, ends
-
-
-class _Section:
-    """One section of the chain on elements of `length`; before: the one that drives it, None for the first."""
-
-    def __init__(self, num: Rows, den: Rows, length: np.ndarray, before: "_Section | None"):
-        self.num, self.den, self.length, self.before = num, den, length, before
-        self.order = 2 if den[0].any() else 1
-        self.x_0: int = before.x_0 + before.order if before else P  # column of its first state
-
-    def through(self, v: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """W and the output, from the input v, both without `add_free`; the states at the end go into `ends`."""
-        (b2, b1, b0), (a, b, c) = self.num, self.den
-        h, x_0, right = self.length, self.x_0, v.copy()
-        if self.before:
-            self.before.add_free(right, IN_SCHUR_FORM)
-        right[..., x_0] -= c[..., 0] * IN_SCHUR_FORM.constant
-        if self.order == 2:
-            right[..., x_0 + 1] -= b[..., 0] * IN_SCHUR_FORM.constant + (c * h)[..., 0] * IN_SCHUR_FORM.ramp
-            W, out = inverse(polynomial((a, b, c), h)) @ right, polynomial((b2, b1, b0), h)
-        else:
-            W, out = inverse(polynomial((b, c), h)) @ right if c.any() else right / b, polynomial((b1, b0), h)
-        for state, times in enumerate(range(self.order, 0, -1)):  # x, and x' of a section of second order
-            end = ends[:, :, x_0 - P + state]
-            end[:] = h[..., 0] ** times * (AT_END[times] @ W)
-            end[..., x_0 + state] += 1.0
-            if times == 2:
-                end[..., x_0 + 1] += h[..., 0, 0]
-        return W, out @ W
-
-    def add_free(self, out: np.ndarray, of: Ramps) -> None:
-        """To an output, or to what was made of it, what the states at the start do of themselves."""
-        _, b1, b0 = (each[..., 0] for each in self.num)
-        out[..., self.x_0] += b0 * of.constant
-        if self.order == 2:
-            out[..., self.x_0 + 1] += b1 * of.constant + b0 * self.length[..., 0] * of.ramp
-
-    def slope(self, W: np.ndarray, out: np.ndarray) -> None:
-        """That of the output at the nodes, right where the section is strictly proper, into `out`."""
-        _, b1, b0 = self.num
-        np.matmul(Q, b0 * W if self.order == 1 else polynomial((b1, b0), self.length) @ W, out=out)
-        if self.order == 2:
-            out[..., self.x_0 + 1] += b0[..., 0]
-
-
-def _to_nodes(matrix: np.ndarray, of: np.ndarray, section: _Section | None, free: Ramps, out: np.ndarray) -> None:
-    """matrix times an output of `section`, with what its states at the start do, into `out`."""
-    np.matmul(matrix, of, out=out)
-    if section:
-        section.add_free(out, free)
+            one = np.ones((m, 1, 1, 1))
+            v, slope, used = _section((0 * one, 0 * one, one), (0 * one, tau_F, one), length, v, ends, used)
+        outputs[1], outputs[2] = v, slope
+        np.matmul(length * COLLOCATION, v, out=outputs[3])
+        return outputs, ends
 
 
 @lru_cache(maxsize=1024)  # for many plants it is asked twice: which are alike, and what they do
@@ -186,3 +112,31 @@ def _rows(rows: Sequence[Row]) -> Rows:
 def _of(rows: Rows, which: Chosen) -> Rows:
     a, b, c = rows
     return a[which], b[which], c[which]
+
+
+def _section(
+    num: Rows, den: Rows, length: np.ndarray, v: np.ndarray, ends: np.ndarray, used: int
+) -> tuple[np.ndarray, np.ndarray, int]:
+    """One section: its output and the slope of it, and the next free state; the states at the end go into `ends`.
+
+    The slope is right where the section is strictly proper.
+    """
+    (b2, b1, b0), (a, b, c) = num, den
+    K, right, x_0 = length * COLLOCATION, v.copy(), P + used
+    right[..., x_0] -= c[..., 0]
+    if not a.any():
+        W = solved(b, c, a, length, right) if c.any() else right / b
+        x = K @ W
+        x[..., x_0] += 1.0
+        ends[:, :, used] = x[:, :, -1]
+        return (b0 * x + b1 * W if b1.any() else b0 * x), b0 * W, used + 1
+    ramp = K.sum(axis=2)  # K applied to 1
+    right[..., x_0 + 1] -= b[..., 0] + c[..., 0] * ramp
+    W = solved(a, b, c, length, right)
+    first = K @ W
+    first[..., x_0 + 1] += 1.0
+    x = K @ first
+    x[..., x_0] += 1.0
+    ends[:, :, used], ends[:, :, used + 1] = x[:, :, -1], first[:, :, -1]
+    out = b0 * x + b1 * first + b2 * W if b1.any() or b2.any() else b0 * x
+    return out, b0 * first + b1 * W, used + 2
