@@ -151,8 +151,8 @@ def value_at(series: list[int], x: int) -> int:
 
 
 def to_float(value: int) -> float:
-    """Back from fixed point."""
-    return float(Fraction(value, ONE))
+    """Back from fixed point, rounded once: Python divides integers exactly."""
+    return value / ONE
 
 
 def course(loop: Loop, load: bool, t_end: float, reach: float = REACH) -> UnitResponses:
