@@ -7,6 +7,7 @@ y, Ms and all that has no unit stay as they are.
 import dataclasses
 import math
 from fractions import Fraction
+from functools import cache
 
 import numpy as np
 import pytest
@@ -142,17 +143,24 @@ def test_step_metrics(loop, T, gain):
         assert same(now.peak_time, T_ * then.peak_time, 1e-5)
 
 
+INSTANTS = np.linspace(0.0, 40.0, 81)
+
+
+@cache  # one loop is compared with all units
+def responses(loop: Loop, actuation: Actuation):
+    return simulate(loop, Scenario(1.0, -0.2, 20.1, t=INSTANTS, actuation=actuation))
+
+
 @any_loop
 @any_units
 @pytest.mark.parametrize(
     "actuation", [Actuation(), Actuation(-0.3, 0.5), Actuation(-2.0, 0.5, h=0.4), Actuation(noise=0.01, seed=3)]
 )
 def test_responses(loop, T, gain, actuation):
-    t, T_ = np.linspace(0.0, 40.0, 81), float(T)
+    before, T_ = responses(loop, actuation), float(T)
     low, high = sorted((actuation.u_min / gain, actuation.u_max / gain))
     other = dataclasses.replace(actuation, u_min=low, u_max=high, h=actuation.h * T_)
-    before = simulate(loop, Scenario(1.0, -0.2, 20.1, t=t, actuation=actuation))
-    scenario = Scenario(1.0, -0.2 / gain, 20.1 * T_, t=t * T_, actuation=other)
+    scenario = Scenario(1.0, -0.2 / gain, 20.1 * T_, t=INSTANTS * T_, actuation=other)
     found = simulate(in_units(loop, T, gain), scenario)
     assert np.max(np.abs(found.y - before.y)) <= 1e-8 * np.max(np.abs(before.y))
     assert np.max(np.abs(found.u * gain - before.u)) <= 1e-8 * np.max(np.abs(before.u))
@@ -166,11 +174,15 @@ def test_tracking_time(loop, T, gain):
     assert same(tracking_time(other.controller, other.plant.k, other.plant.integrators), float(T) * before)
 
 
+@cache
+def built(loop: Loop):
+    return as_built(loop, Scenario(1.0, -0.2, 20.0, 40.0, actuation=Actuation(-0.5, 0.7))).numbers
+
+
 @stable_loop
 @any_units
 def test_the_loop_as_built(loop, T, gain):
-    T_ = float(T)
-    before = as_built(loop, Scenario(1.0, -0.2, 20.0, 40.0, actuation=Actuation(-0.5, 0.7))).numbers
+    T_, before = float(T), built(loop)
     low, high = sorted((-0.5 / gain, 0.7 / gain))
     other = Scenario(1.0, -0.2 / gain, 20 * T_, 40 * T_, actuation=Actuation(low, high))
     found = as_built(in_units(loop, T, gain), other).numbers
@@ -316,13 +328,18 @@ def test_cascades(loop, T, gain):
     assert np.max(np.abs(now.u * 2 * gain**2 - then.u)) <= 1e-8 * np.max(np.abs(then.u))
 
 
+@cache
+def with_limits(loop: CascadeLoop, protection: str):
+    return limited(loop, -0.2, 0.35, protection, t_end=60.0)
+
+
 @pytest.mark.parametrize("loop", CASCADES.values(), ids=CASCADES)
 @pytest.mark.parametrize("protection", PROTECTIONS)
 @any_units
 def test_cascades_with_a_limited_actuator(loop, protection, T, gain):
     """Where there are integrators the limits matter most, so the step is large."""
     T_, g = float(T), 2 * gain**2
-    then = limited(loop, -0.2, 0.35, protection, t_end=60.0)
+    then = with_limits(loop, protection)
     now = limited(cascade_in_units(loop, T, gain, 2 * gain), -0.2 / g, 0.35 / g, protection, t_end=60.0 * T_)
     assert now.t == pytest.approx(T_ * then.t)
     assert np.max(np.abs(now.y - then.y)) <= 1e-7
