@@ -120,8 +120,8 @@ def test_a_rule_is_pinned_for_the_tuning_page():
 def test_what_is_asked_is_in_the_address():
     app = rules()
     app.segmented_control(key="widget_compared_kind").set_value("PID").run()
-    app.segmented_control(key="rules_equal").set_value(True).run()
-    app.segmented_control(key="widget_compared_criterion").set_value("setpoint").run()
+    app.segmented_control(key="rules_equal").set_value(True)
+    app.segmented_control(key="widget_compared_criterion").set_value("setpoint")
     app.text_input(key="widget_compared_tau_F").set_value("0,2").run()
     assert not app.exception
     asked = {name.removeprefix("compared_"): text for name, text in address(app).items() if name.startswith("compared")}
@@ -322,5 +322,5 @@ def test_what_is_said_of_SIMC_is_true_of_an_oscillating_plant_too():
 
 def test_the_action_is_told_beside_a_negative_gain():
     """The table has sizes: [SK03] Kc = tau1/(k (tau_c + theta)) is negative here."""
-    assert "direct action" in texts(run_page("rules", plant="-2.5 exp(-1.5s)/(12s+1)", rule="simc"))
-    assert "reverse action" in texts(run_page("rules", plant="2.5 exp(-1.5s)/(12s+1)", rule="simc"))
+    assert "direct action" in texts(run_page("rules", PLANE, "rules_picture", plant=PLANTS["negative gain"]))
+    assert "reverse action" in texts(rules(PLANE))
