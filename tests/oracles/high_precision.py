@@ -91,28 +91,30 @@ class Block:
 
     def __call__(self, v: list[int], steps: list[int]) -> list[int]:
         """Series of the output for the series v of the input, over the next piece; steps: h/(j + 1)."""
-        x, total, out = list(self.state), [0] * self.order, []
+        out = []
         slope = derivative(v, self.h) if self.order < 2 and self.N[2] else [0] * len(v)
         n0, n1, n2 = self.N
+        alone = n1 == n2 == 0
         if self.order == 2:
             d0, d1 = self.D
-            one, two = x
-            sum1 = sum2 = 0
+            one, two = self.state
+            over, sum1, sum2 = self.over, 0, 0
             for value, step in zip(v, steps, strict=True):
                 sum1 += one
                 sum2 += two
-                rate = (self.over * value - d0 * one - d1 * two) >> BITS
-                out.append((n0 * one + n1 * two + n2 * rate) >> BITS)
+                rate = (over * value - d0 * one - d1 * two) >> BITS
+                out.append(n0 * one >> BITS if alone else (n0 * one + n1 * two + n2 * rate) >> BITS)
                 one, two = two * step >> BITS, rate * step >> BITS
             self.state = [sum1, sum2]
         elif self.order == 1:
+            (d0,), (one,), over, sum1 = self.D, self.state, self.over, 0
             for value, rise, step in zip(v, slope, steps, strict=True):
-                total[0] += x[0]
-                rate = (self.over * value - self.D[0] * x[0]) >> BITS
-                bend = (self.over * rise - self.D[0] * rate) >> BITS
-                out.append((n0 * x[0] + n1 * rate + n2 * bend) >> BITS)
-                x[0] = rate * step >> BITS
-            self.state = total
+                sum1 += one
+                rate = (over * value - d0 * one) >> BITS
+                bend = (over * rise - d0 * rate) >> BITS if n2 else 0
+                out.append(n0 * one >> BITS if alone else (n0 * one + n1 * rate + n2 * bend) >> BITS)
+                one = rate * step >> BITS
+            self.state = [sum1]
         else:
             out = [n0 * (self.over * value >> BITS) >> BITS for value in v]
         return out
