@@ -53,8 +53,9 @@ class Loop:
 TOGETHER = 1024  # of a list of loops as many are worked on together
 
 
-@lru_cache(maxsize=TOGETHER)  # the certificate and the margins ask for it
+@lru_cache(maxsize=TOGETHER)
 def transfer_function(loop: Loop) -> Factored:
+    """G C: the certificate and the margins ask for it."""
     return factored_plant(loop.plant) * loop.controller.factored
 
 

@@ -1,5 +1,6 @@
 """Rows: what is read, what comes out, what is refused."""
 
+import gc
 import math
 import pickle
 
@@ -205,3 +206,20 @@ def test_results_can_be_sent():
     again = pickle.loads(pickle.dumps(result))
     assert again.controller == result.controller
     assert again.typed.values == result.typed.values
+
+
+@pytest.mark.parametrize("on", [True, False])
+def test_the_collector_of_cycles_is_left_as_it_was_and_has_nothing_to_collect(on):
+    """It waits while a chunk is tuned."""
+    rows, _ = mixed_rows(100, 5, seed=7)
+    tune_chunk(rows)  # what is made once is made
+    was_on = gc.isenabled()
+    try:
+        (gc.enable if on else gc.disable)()
+        gc.collect()
+        found = tune_chunk(rows)
+        assert gc.isenabled() == on
+        assert gc.collect() == 0
+        assert len(found) == 100
+    finally:
+        (gc.enable if was_on else gc.disable)()
