@@ -304,15 +304,18 @@ def set_widget(key: str, thing: Any) -> None:
     """Put a value into the widget of this key, before it is made.
 
     Where the widget holds it already nothing is sent, so that typing that goes on is not overwritten. Only a value that
-    was put in a moment ago is sent again: a run that overtook that one may have kept it from the browser.
+    was put in a moment ago is sent again: a run that overtook that one may have kept it from the browser. Not so that a
+    field is empty at first: sent again, that would take away what somebody has begun to type.
     """
     sent = st.session_state.setdefault("sent", {})
     if key not in st.session_state or st.session_state[key] != thing:
+        former = st.session_state.get(key, "")
         if key in st.session_state:
             replaced = st.session_state.setdefault("replaced", {})
-            replaced[key] = st.session_state[key], monotonic() + ANSWERED
+            replaced[key] = former, monotonic() + ANSWERED
         st.session_state[key] = thing
-        sent[key] = thing, monotonic() + SENT_AGAIN
+        if former or thing:
+            sent[key] = thing, monotonic() + SENT_AGAIN
     elif key in sent:
         first, until = sent[key]
         if first == thing and monotonic() < until:
