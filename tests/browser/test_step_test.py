@@ -15,28 +15,26 @@ FACTS = {
 UNITS = "unit=min&PV_unit=%C2%B0C&OP_unit=%25"
 
 
-def test_what_is_typed_while_the_page_answers_to_another_field_stays(server, open_page):
-    """Fields that have just come, filled faster than any run of the page."""
-    for pause in (0, 60, 120):
-        page = open_page(f"{server}/plant?{UNITS}")
-        page.get_by_text("Step test", exact=True).click()
-        for label, text in FACTS.items():
-            field = page.get_by_role("textbox", name=label)
-            field.fill(text)
-            field.press("Enter")
-            page.wait_for_timeout(pause)
-        expect(page).to_have_url(re.compile("facts=step~5~-11~0.5~3.5"))
-
-
-def test_facts_of_a_step_test_become_settings_elsewhere(server, open_page):
-    page = open_page(f"{server}/plant?{UNITS}")
+def step_test(page, between) -> None:
+    """The facts typed in, field by field."""
     page.get_by_text("Step test", exact=True).click()
     for label, text in FACTS.items():
         field = page.get_by_role("textbox", name=label)
         field.fill(text)
         field.press("Enter")
-        idle(page)
+        between(page)
     expect(page).to_have_url(re.compile("facts=step~5~-11~0.5~3.5"))
+
+
+def test_what_is_typed_while_the_page_answers_to_another_field_stays(server, open_page):
+    """Fields that have just come, filled faster than any run of the page."""
+    for pause in (0, 60, 120):
+        step_test(open_page(f"{server}/plant?{UNITS}"), lambda page, pause=pause: page.wait_for_timeout(pause))
+
+
+def test_facts_of_a_step_test_become_settings_elsewhere(server, open_page):
+    page = open_page(f"{server}/plant?{UNITS}")
+    step_test(page, idle)
     picture(page, "step-test")
     other = open_page(page.url.replace("/plant?", "/tuning?"), 390)
     assert fits(other)
